@@ -1,0 +1,13 @@
+//! `mpm`: a Material Point Method simulator for solids.
+//!
+//! Dependencies run one way: `cli` → `run`, `study` → `scenario`, `observe`, `report` → `solver` → `transfer`, `boundary`,
+//! `material`, `basis`, `grid` → `state` → `input`, `math`.
+
+pub mod basis;
+pub mod boundary;
+pub mod cli;
+pub mod input;
+pub mod material;
+pub mod math;
+pub mod scenario;
+pub mod transfer;

@@ -1,0 +1,4 @@
+//! Geometry of bodies.
+/// A shape.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {}
