@@ -1,0 +1,77 @@
+//! The background grid: where its nodes are, and storage for the blocks of it that points occupy.
+
+mod blocks;
+
+pub use blocks::{Block, Blocks, Row};
+
+use crate::basis::Basis;
+use crate::math::Vector;
+
+/// Four numbers of one grid node that are loaded and stored together: a vector (momentum, velocity or force, components
+/// `0 .. D`) and, in the first array of the grid, the mass (component `D`).
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Node(pub [f64; 4]);
+
+/// The place and size of the grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Geometry<const D: usize> {
+    /// Lower corner, m.
+    pub min: Vector<D>,
+    /// Edge h of a cell, m.
+    pub cell_size: f64,
+    /// Cells along each axis.
+    pub cells: [i32; D],
+    /// Nodes (shape functions) along each axis.
+    pub counts: [i32; D],
+}
+
+impl<const D: usize> Geometry<D> {
+    /// The grid as a basis numbers its nodes.
+    pub fn new<const N: usize, B: Basis<N>>(
+        min: Vector<D>,
+        cell_size: f64,
+        cells: [i32; D],
+        basis: &B,
+    ) -> Self {
+        Self {
+            min,
+            cell_size,
+            cells,
+            counts: cells.map(|n| basis.count(n)),
+        }
+    }
+
+    /// Position of a node, m.
+    pub fn node_position<const N: usize, B: Basis<N>>(
+        &self,
+        basis: &B,
+        node: &[i32; D],
+    ) -> Vector<D> {
+        Vector::from_fn(|a, _| {
+            self.min[a] + self.cell_size * basis.position(node[a], self.cells[a])
+        })
+    }
+
+    /// A position in cells from the lower corner.
+    #[inline(always)]
+    pub fn in_cells(&self, position: &Vector<D>, inverse: f64) -> [f64; D] {
+        std::array::from_fn(|a| (position[a] - self.min[a]) * inverse)
+    }
+}
+
+/// Nodes along an edge of a block. A stencil of `n` nodes whose point has strayed up to one cell from its block must stay
+/// clear of the next block of the same colour, two blocks on: the edge has to exceed `n`.
+pub const fn block_edge(dimension: usize, n: usize) -> i32 {
+    match dimension {
+        1 => 64,
+        2 => 16,
+        _ => {
+            if n <= 3 {
+                4
+            } else {
+                8
+            }
+        }
+    }
+}

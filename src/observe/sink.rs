@@ -1,0 +1,118 @@
+//! Where rows go: files of a run folder, or memory.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A place for tables.
+pub trait Sink {
+    /// Opens a table; called once for each, before the first step.
+    fn open(&mut self, name: &str, header: &[String]) -> io::Result<()>;
+
+    /// Adds a row.
+    fn row(&mut self, name: &str, row: &[f64]) -> io::Result<()>;
+
+    /// Makes sure that everything so far can be read.
+    fn flush(&mut self) -> io::Result<()>;
+}
+
+/// CSV files in a folder, with every digit that a number needs to be read back exactly.
+pub struct CsvSink {
+    folder: PathBuf,
+    files: BTreeMap<String, csv::Writer<File>>,
+}
+
+impl CsvSink {
+    /// Files in `folder`, which exists.
+    pub fn new(folder: &Path) -> Self {
+        Self { folder: folder.to_path_buf(), files: BTreeMap::new() }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{name}.csv"))
+    }
+
+    fn explain(&self, name: &str, error: impl std::fmt::Display) -> io::Error {
+        io::Error::other(format!("cannot write {}: {error}", self.path(name).display()))
+    }
+}
+
+impl Sink for CsvSink {
+    fn open(&mut self, name: &str, header: &[String]) -> io::Result<()> {
+        let file = File::create(self.path(name)).map_err(|error| self.explain(name, error))?;
+        let mut writer = csv::Writer::from_writer(file);
+        writer.write_record(header).map_err(|error| self.explain(name, error))?;
+        writer.flush().map_err(|error| self.explain(name, error))?;
+        self.files.insert(name.to_string(), writer);
+        Ok(())
+    }
+
+    fn row(&mut self, name: &str, row: &[f64]) -> io::Result<()> {
+        let Some(writer) = self.files.get_mut(name) else {
+            return Err(self.explain(name, "the table was never opened"));
+        };
+        // `{:?}` of f64 is the shortest text that reads back as the same number
+        let result = writer.write_record(row.iter().map(|x| format!("{x:?}")));
+        result.map_err(|error| self.explain(name, error))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        for (name, writer) in &mut self.files {
+            writer.flush().map_err(|error| {
+                let path = self.folder.join(format!("{name}.csv"));
+                io::Error::other(format!("cannot write {}: {error}", path.display()))
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// A table in memory.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Names of the columns.
+    pub header: Vec<String>,
+    /// One a recorded time.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// A column by name; empty if there is none.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        match self.header.iter().position(|header| header == name) {
+            Some(index) => self.rows.iter().filter_map(|row| row.get(index).copied()).collect(),
+            None => Vec::new(),
+        }
+    }
+}
+
+/// Tables in memory, by name.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Memory {
+    /// The tables.
+    pub tables: BTreeMap<String, Table>,
+}
+
+impl Memory {
+    /// A column of a table; empty if there is none.
+    pub fn column(&self, table: &str, column: &str) -> Vec<f64> {
+        self.tables.get(table).map(|table| table.column(column)).unwrap_or_default()
+    }
+}
+
+impl Sink for Memory {
+    fn open(&mut self, name: &str, header: &[String]) -> io::Result<()> {
+        self.tables.insert(name.to_string(), Table { header: header.to_vec(), rows: Vec::new() });
+        Ok(())
+    }
+
+    fn row(&mut self, name: &str, row: &[f64]) -> io::Result<()> {
+        self.tables.entry(name.to_string()).or_default().rows.push(row.to_vec());
+        Ok(())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}

@@ -1,0 +1,319 @@
+//! The material point method: one step, as the algorithm box of a paper would print it.
+
+use super::integrate::{Constraint, GridStep};
+use super::ledger::{GridSums, Ledger, Stored};
+use super::loads::{Load, Loads};
+use super::sort::Scratch;
+use super::stencil::{Gathered, Sources};
+use super::{Fault, Limit, Solver};
+use crate::basis::Basis;
+use crate::boundary::Condition;
+use crate::grid::{Blocks, Geometry, Node, block_edge};
+use crate::math::{Sum, Vector};
+use crate::scenario::Scheme;
+use crate::state::State;
+use crate::transfer::Transfer;
+
+/// Everything that a solver is told before a run.
+pub struct Setup<const D: usize, B, T> {
+    /// Lower corner of the grid, m.
+    pub min: Vector<D>,
+    /// Edge of a cell, m.
+    pub cell_size: f64,
+    /// Cells along each axis.
+    pub cells: [i32; D],
+    /// The basis.
+    pub basis: B,
+    /// The transfer.
+    pub transfer: T,
+    /// When stresses are updated.
+    pub scheme: Scheme,
+    /// Acceleration of gravity, m/s².
+    pub gravity: Vector<D>,
+    /// Damping rate, 1/s.
+    pub damping: f64,
+    /// Conditions on nodes.
+    pub boundaries: Vec<Box<dyn Condition<D>>>,
+    /// For each boundary, the closed box of positions, m, of its nodes.
+    pub boundary_boxes: Vec<(Vector<D>, Vector<D>)>,
+    /// Forces on points.
+    pub loads: Vec<Load<D>>,
+    /// Whether steps may use several threads.
+    pub parallel: bool,
+}
+
+/// The solver for `D` dimensions, a basis of `N` nodes an axis, and a transfer.
+pub struct Mpm<const D: usize, const N: usize, B, T> {
+    pub(super) geometry: Geometry<D>,
+    /// Basis of each body along each axis.
+    pub(super) basis: Vec<[B; D]>,
+    pub(super) node_basis: B,
+    pub(super) transfer: T,
+    pub(super) scheme: Scheme,
+    pub(super) edge: i32,
+    pub(super) gravity: Vector<D>,
+    pub(super) damping: f64,
+    pub(super) boundaries: Vec<Box<dyn Condition<D>>>,
+    /// First and last node of each boundary along each axis.
+    pub(super) boundary_nodes: Vec<[(i32, i32); D]>,
+    pub(super) loads: Loads<D>,
+    pub(super) blocks: Blocks<D>,
+    pub(super) main: Vec<Node>,
+    pub(super) change: Vec<Node>,
+    pub(super) second: Vec<Node>,
+    pub(super) external: Vec<Node>,
+    pub(super) row_sums: Vec<GridSums>,
+    pub(super) constraints: Vec<Constraint<D>>,
+    pub(super) constraint_ranges: Vec<(u32, u32)>,
+    pub(super) gathered: Vec<Gathered>,
+    pub(super) scratch: Scratch<D>,
+    pub(super) ledger: Ledger<D>,
+    pub(super) needs_sort: bool,
+    pub(super) parallel: bool,
+    pub(super) wide: bool,
+    pub(super) last_dt: f64,
+    pub(super) wave_speed: f64,
+    pub(super) speed: f64,
+}
+
+/// Steps between two looks at how stiff the points have become.
+const STIFFNESS_INTERVAL: u64 = 16;
+
+impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
+    /// A solver for the given bodies.
+    pub fn new(setup: Setup<D, B, T>, state: &State<D>) -> Self {
+        let geometry = Geometry::new(setup.min, setup.cell_size, setup.cells, &setup.basis);
+        let basis = state
+            .bodies
+            .iter()
+            .map(|body| std::array::from_fn(|a| setup.basis.for_spacing(body.spacing[a] / setup.cell_size)))
+            .collect();
+        let boundary_nodes = setup
+            .boundary_boxes
+            .iter()
+            .map(|(min, max)| {
+                std::array::from_fn(|a| {
+                    let low = (min[a] - setup.min[a]) / setup.cell_size - 1e-9;
+                    let high = (max[a] - setup.min[a]) / setup.cell_size + 1e-9;
+                    nodes_between(&setup.basis, setup.cells[a], low, high)
+                })
+            })
+            .collect();
+        Self {
+            geometry,
+            basis,
+            node_basis: setup.basis,
+            transfer: setup.transfer,
+            scheme: setup.scheme,
+            edge: block_edge(D, N),
+            gravity: setup.gravity,
+            damping: setup.damping,
+            boundaries: setup.boundaries,
+            boundary_nodes,
+            loads: Loads::new(setup.loads),
+            blocks: Blocks::default(),
+            main: Vec::new(),
+            change: Vec::new(),
+            second: Vec::new(),
+            external: Vec::new(),
+            row_sums: Vec::new(),
+            constraints: Vec::new(),
+            constraint_ranges: Vec::new(),
+            gathered: Vec::new(),
+            scratch: Scratch::default(),
+            ledger: Ledger::default(),
+            needs_sort: true,
+            parallel: setup.parallel,
+            wide: super::passes::wide_instructions(),
+            last_dt: 0.0,
+            wave_speed: 0.0,
+            speed: 0.0,
+        }
+    }
+
+    /// Whether velocities other than those at the end of the step strain the points.
+    pub(super) fn has_second(&self) -> bool {
+        self.scheme != Scheme::UpdateStressLast
+    }
+
+    /// Uses plain arithmetic even where the processor offers more.
+    pub fn portable(mut self) -> Self {
+        self.wide = false;
+        self
+    }
+
+    fn grid_step(&mut self, state: &State<D>, dt: f64) -> GridSums {
+        let mut step = GridStep {
+            main: &mut self.main,
+            change: &mut self.change,
+            external: &self.external,
+            rows: &self.blocks.rows,
+            ranges: &self.constraint_ranges,
+            constraints: &mut self.constraints,
+            boundaries: &self.boundaries,
+            gravity: self.gravity,
+            damping: self.damping,
+            ratio: self.transfer.ratio(),
+            time: state.time,
+            dt,
+        };
+        step.integrate(&mut self.row_sums, self.parallel);
+        self.react(dt);
+        self.row_sums.iter().fold(GridSums::default(), GridSums::and)
+    }
+
+    /// Sums the impulses of each boundary.
+    fn react(&mut self, dt: f64) {
+        for boundary in 0..self.boundaries.len() {
+            let mut impulse = [Sum::default(); D];
+            for constraint in self.constraints.iter().filter(|c| c.boundary == boundary) {
+                for a in 0..D {
+                    impulse[a].add(constraint.impulse[a]);
+                }
+            }
+            let impulse = Vector::from_fn(|a, _| impulse[a].value());
+            self.ledger.reactions[boundary] = impulse / dt;
+            self.ledger.push(boundary, &impulse);
+        }
+    }
+
+    /// Velocities from the momenta in `second`.
+    fn second_velocities(&mut self, time: f64) {
+        GridStep::velocities(
+            &mut self.second,
+            &self.blocks.rows,
+            &self.constraint_ranges,
+            &self.constraints,
+            &self.boundaries,
+            time,
+            &mut self.row_sums,
+            self.parallel,
+        );
+    }
+
+    fn sources(&self) -> Sources {
+        Sources {
+            main: self.main.as_ptr(),
+            change: self.change.as_ptr(),
+            second: self.second.as_ptr(),
+        }
+    }
+
+    /// How stiff and fast the points are.
+    fn survey(&mut self, state: &State<D>) {
+        self.wave_speed = state
+            .bodies
+            .iter()
+            .map(|body| {
+                let p = &body.particles;
+                let stiffness =
+                    body.material.max_stiffness(0..p.len(), &p.stress, &p.hoop_stress, &p.hoop_stretch);
+                (stiffness / body.density).sqrt()
+            })
+            .fold(0.0, f64::max);
+    }
+}
+
+impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Solver<D> for Mpm<D, N, B, T> {
+    fn start(&mut self, state: &mut State<D>) -> Result<(), Fault> {
+        self.sort(state)?;
+        let stored = self.stored(state);
+        self.ledger.open(stored, self.boundaries.len());
+        self.speed = state
+            .bodies
+            .iter()
+            .flat_map(|body| &body.particles.velocity)
+            .fold(0.0, |most: f64, v| most.max(v.norm()));
+        self.survey(state);
+        Ok(())
+    }
+
+    fn step(&mut self, state: &mut State<D>, dt: f64) -> Result<(), Fault> {
+        if self.needs_sort {
+            self.sort(state)?;
+        }
+        self.clear_grid();
+        match self.scheme {
+            Scheme::UpdateStressFirst => {
+                self.momenta_to_grid(state, dt);
+                self.second.copy_from_slice(&self.main);
+                self.second_velocities(state.time);
+                self.strain_points(state, dt, &self.sources());
+                self.forces_to_grid(state, dt);
+            }
+            _ => self.points_to_grid(state, dt),
+        }
+        self.loads_to_grid(state, dt);
+        let sums = self.grid_step(state, dt);
+        let sources = self.sources();
+        let gathered = match self.scheme {
+            Scheme::UpdateStressFirst => self.move_points(state, dt, &sources),
+            Scheme::UpdateStressLast => self.move_and_strain_points(state, dt, &sources),
+            Scheme::ModifiedUpdateStressLast => {
+                let gathered = self.accelerate_points(state, dt, &sources);
+                self.momenta_to_grid_again(state, dt);
+                self.second_velocities(state.time + dt);
+                gathered.and(self.move_points_and_strain_by_second(state, dt, &sources))
+            }
+        };
+        self.ledger.book(&sums, gathered.kinetic);
+        self.speed = gathered.speed_squared.sqrt();
+        self.needs_sort = !gathered.within;
+        self.last_dt = dt;
+        state.time += dt;
+        state.step += 1;
+        if self.needs_sort {
+            self.sort(state)?;
+        }
+        if state.step.is_multiple_of(STIFFNESS_INTERVAL) {
+            self.survey(state);
+        }
+        Ok(())
+    }
+
+    fn stored(&self, state: &State<D>) -> Stored {
+        let (mut kinetic, mut elastic, mut potential) = (Sum::default(), Sum::default(), Sum::default());
+        for body in &state.bodies {
+            let totals = body.totals();
+            kinetic.add(totals.kinetic);
+            elastic.add(totals.elastic);
+            potential.add(-totals.mass * self.gravity.dot(&totals.position));
+        }
+        Stored { kinetic: kinetic.value(), elastic: elastic.value(), potential: potential.value() }
+    }
+
+    fn ledger(&self) -> &Ledger<D> {
+        &self.ledger
+    }
+
+    fn limit(&self, _state: &State<D>) -> Limit {
+        Limit { wave_speed: self.wave_speed, particle_speed: self.speed, cell_size: self.geometry.cell_size }
+    }
+
+    fn stored_nodes(&self) -> usize {
+        self.blocks.stored
+    }
+
+    fn bytes_per_node(&self) -> usize {
+        let arrays = 1 + usize::from(T::CHANGE) + usize::from(self.has_second()) + usize::from(!self.loads.is_empty());
+        arrays * size_of::<Node>()
+    }
+}
+
+/// First and last node of an axis whose position, in cells, lies in `low ..= high`; an empty range if there is none.
+fn nodes_between<const N: usize, B: Basis<N>>(basis: &B, cells: i32, low: f64, high: f64) -> (i32, i32) {
+    // positions ascend with the number, about one a cell: search by halving
+    let find = |beyond: &dyn Fn(f64) -> bool| {
+        let (mut first, mut last) = (0, basis.count(cells));
+        while first < last {
+            let middle = first + (last - first) / 2;
+            if beyond(basis.position(middle, cells)) {
+                last = middle;
+            } else {
+                first = middle + 1;
+            }
+        }
+        first
+    };
+    (find(&|x| x >= low), find(&|x| x > high) - 1)
+}

@@ -1,0 +1,358 @@
+//! Passes over the points, block by block: on one thread or several, with wide instructions or without, always with the same
+//! order of additions at every node.
+
+use super::lane::{Lane, Portable};
+use super::mpm::Mpm;
+use super::stencil::{
+    CHUNK, Columns, Gathered, Pass, Rates, Reach, Sources, Tile, gather, scatter, scatter_forces,
+};
+use crate::basis::Basis;
+use crate::grid::{Block, Node};
+use crate::math::Vector;
+use crate::material::MaterialPoints;
+use crate::state::State;
+use crate::transfer::Transfer;
+use rayon::prelude::*;
+
+/// Whether this processor has the wide instructions that the fast kernels use.
+pub fn wide_instructions() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    {
+        std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        false
+    }
+}
+
+/// Points that a task should have at least, so that handing it to a thread costs little.
+const POINTS_PER_TASK: usize = 1024;
+
+/// An array of nodes that tasks of one colour add to at the same time.
+#[derive(Clone, Copy)]
+struct Target(*mut Node);
+
+// SAFETY: blocks of one colour share no node (see `stencil`)
+unsafe impl Send for Target {}
+// SAFETY: as above
+unsafe impl Sync for Target {}
+
+/// The grid's arrays for reading.
+#[derive(Clone, Copy)]
+struct Readable(Sources);
+
+// SAFETY: nobody writes to the grid while points gather from it
+unsafe impl Send for Readable {}
+// SAFETY: as above
+unsafe impl Sync for Readable {}
+
+fn for_each(count: usize, points_each: usize, parallel: bool, work: impl Fn(usize) + Sync) {
+    if parallel && count > 1 {
+        (0..count)
+            .into_par_iter()
+            .with_min_len((POINTS_PER_TASK / points_each.max(1)).max(1))
+            .for_each(work);
+    } else {
+        (0..count).for_each(work);
+    }
+}
+
+/// Defines a function for one block that picks the fast or the portable version of a kernel.
+macro_rules! with_lanes {
+    ($wide:expr, $kernel:ident :: <$($generic:ty),* $(; $($flag:expr),*)?>($($argument:expr),* $(,)?)) => {{
+        #[cfg(target_arch = "x86_64")]
+        if $wide {
+            // SAFETY: the instructions were found (`wide_instructions`); the rest as the caller says
+            unsafe { wide::$kernel::<$($generic),* $(, $({ $flag }),*)?>($($argument),*) }
+        } else {
+            // SAFETY: as the caller says
+            unsafe { $kernel::<Portable, $($generic),* $(, $({ $flag }),*)?>($($argument),*) }
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            let _ = $wide;
+            // SAFETY: as the caller says
+            unsafe { $kernel::<Portable, $($generic),* $(, $({ $flag }),*)?>($($argument),*) }
+        }
+    }};
+}
+
+impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
+    fn pass(&self, body: usize, dt: f64) -> Pass<'_, D, B, T> {
+        Pass { geometry: &self.geometry, basis: self.basis[body], transfer: self.transfer, dt }
+    }
+
+    /// Zeroes the nodes that the step will add to.
+    pub(super) fn clear_grid(&mut self) {
+        // `second` is filled anew where it is used
+        for array in [&mut self.main, &mut self.change, &mut self.external] {
+            clear(array, &self.blocks.rows, self.parallel);
+        }
+    }
+
+    /// Momenta, masses and internal forces.
+    pub(super) fn points_to_grid(&mut self, state: &mut State<D>, dt: f64) {
+        let (main, force) = (Target(self.main.as_mut_ptr()), Target(self.change.as_mut_ptr()));
+        self.scatter_pass::<true, true>(state, dt, main, force);
+    }
+
+    /// Momenta and masses.
+    pub(super) fn momenta_to_grid(&mut self, state: &mut State<D>, dt: f64) {
+        let (main, force) = (Target(self.main.as_mut_ptr()), Target(self.change.as_mut_ptr()));
+        self.scatter_pass::<true, false>(state, dt, main, force);
+    }
+
+    /// Internal forces.
+    pub(super) fn forces_to_grid(&mut self, state: &mut State<D>, dt: f64) {
+        let (main, force) = (Target(self.main.as_mut_ptr()), Target(self.change.as_mut_ptr()));
+        self.scatter_pass::<false, true>(state, dt, main, force);
+    }
+
+    /// Momenta and masses, into the second array.
+    pub(super) fn momenta_to_grid_again(&mut self, state: &mut State<D>, dt: f64) {
+        clear(&mut self.second, &self.blocks.rows, self.parallel);
+        let (second, force) = (Target(self.second.as_mut_ptr()), Target(self.change.as_mut_ptr()));
+        self.scatter_pass::<true, false>(state, dt, second, force);
+    }
+
+    fn scatter_pass<const MOMENTUM: bool, const FORCE: bool>(
+        &self,
+        state: &mut State<D>,
+        dt: f64,
+        main: Target,
+        force: Target,
+    ) {
+        for (index, body) in state.bodies.iter_mut().enumerate() {
+            let columns = Columns::new(&mut body.particles);
+            let pass = self.pass(index, dt);
+            let own = &self.blocks.bodies[index];
+            let points_each = body.particles.len() / own.blocks.len().max(1);
+            for colour in &own.colours {
+                for_each(colour.len(), points_each, self.parallel, |i| {
+                    let (main, force) = (main, force);
+                    let block = &own.blocks[colour[i] as usize];
+                    with_lanes!(
+                        self.wide,
+                        scatter::<D, N, B, T; MOMENTUM, FORCE>(
+                            &pass, &columns, block, self.edge, { main }.0, { force }.0
+                        )
+                    );
+                });
+            }
+        }
+    }
+
+    /// Forces of loads.
+    pub(super) fn loads_to_grid(&mut self, state: &mut State<D>, dt: f64) {
+        if self.loads.is_empty() {
+            return;
+        }
+        let mut loads = std::mem::replace(&mut self.loads, super::Loads::new(Vec::new()));
+        loads.evaluate(state.time, |body, row| state.bodies[body].particles.mass[row as usize]);
+        let external = Target(self.external.as_mut_ptr());
+        for load in 0..loads.len() {
+            let index = loads.body(load);
+            let columns = Columns::new(&mut state.bodies[index].particles);
+            let pass = self.pass(index, dt);
+            let own = &self.blocks.bodies[index];
+            for colour in &own.colours {
+                for_each(colour.len(), POINTS_PER_TASK / 4, self.parallel, |i| {
+                    let external = external;
+                    let block = &own.blocks[colour[i] as usize];
+                    let forces = loads.in_rows(load, block.points());
+                    if !forces.is_empty() {
+                        with_lanes!(
+                            self.wide,
+                            scatter_forces::<D, N, B, T>(
+                                &pass, &columns, block, self.edge, { external }.0, forces
+                            )
+                        );
+                    }
+                });
+            }
+        }
+        self.loads = loads;
+    }
+
+    /// Update stress last: velocities, positions and stresses from the velocities at the end of the step.
+    pub(super) fn move_and_strain_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
+        self.gather_pass::<true, true, true, true>(state, dt, from)
+    }
+
+    /// Velocities and positions.
+    pub(super) fn move_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
+        self.gather_pass::<true, true, false, false>(state, dt, from)
+    }
+
+    /// Velocities.
+    pub(super) fn accelerate_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
+        self.gather_pass::<true, false, false, false>(state, dt, from)
+    }
+
+    /// Stresses from the second velocities.
+    pub(super) fn strain_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
+        self.gather_pass::<false, false, true, false>(state, dt, from)
+    }
+
+    /// Positions from the velocities at the end of the step, stresses from the second velocities.
+    pub(super) fn move_points_and_strain_by_second(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
+        self.gather_pass::<false, true, true, false>(state, dt, from)
+    }
+
+    fn gather_pass<const VELOCITY: bool, const MOVE: bool, const RATE: bool, const SAME: bool>(
+        &mut self,
+        state: &mut State<D>,
+        dt: f64,
+        from: &Sources,
+    ) -> Gathered {
+        let mut results = std::mem::take(&mut self.gathered);
+        let mut total = Gathered::NONE;
+        let from = Readable(*from);
+        for (index, body) in state.bodies.iter_mut().enumerate() {
+            let columns = Columns::new(&mut body.particles);
+            let material = &*body.material;
+            let pass = self.pass(index, dt);
+            let blocks = &self.blocks.bodies[index].blocks;
+            let points_each = body.particles.len() / blocks.len().max(1);
+            let shift = std::array::from_fn(|a| self.basis[index][a].shift());
+            results.clear();
+            results.resize(blocks.len(), Gathered::NONE);
+            let work = |block: &Block<D>| {
+                let from = from;
+                self.gather_block::<VELOCITY, MOVE, RATE, SAME>(&pass, &columns, block, &shift, material, &{ from }.0)
+            };
+            if self.parallel && blocks.len() > 1 {
+                results
+                    .par_iter_mut()
+                    .zip(blocks)
+                    .with_min_len((POINTS_PER_TASK / points_each.max(1)).max(1))
+                    .for_each(|(result, block)| *result = work(block));
+            } else {
+                for (result, block) in results.iter_mut().zip(blocks) {
+                    *result = work(block);
+                }
+            }
+            total = results.iter().fold(total, |sum, result| sum.and(*result));
+        }
+        self.gathered = results;
+        total
+    }
+
+    fn gather_block<const VELOCITY: bool, const MOVE: bool, const RATE: bool, const SAME: bool>(
+        &self,
+        pass: &Pass<'_, D, B, T>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        shift: &[f64; D],
+        material: &dyn MaterialPoints<D>,
+        from: &Sources,
+    ) -> Gathered {
+        let tile = Tile::new(block, self.edge, N);
+        let reach = Reach::new(block.origin, self.edge, self.geometry.cells, *shift);
+        let mut rates = Rates::zeros();
+        let mut total = Gathered::NONE;
+        let rows = block.points();
+        for first in rows.clone().step_by(CHUNK) {
+            let count = CHUNK.min(rows.end - first);
+            let gathered = with_lanes!(
+                self.wide,
+                gather::<D, N, B, T; VELOCITY, MOVE, RATE, SAME>(
+                    pass, columns, &tile, &reach, first..first + count, from, &mut rates
+                )
+            );
+            total = total.and(gathered);
+            if RATE {
+                // SAFETY: these rows belong to this block alone
+                unsafe {
+                    let (stress, hoop_stress, hoop_stretch) = columns.law_columns(first, count);
+                    material.update_range(
+                        first..first + count,
+                        stress,
+                        hoop_stress,
+                        &rates.gradient[..count],
+                        &rates.hoop[..hoop_stretch.len()],
+                        hoop_stretch,
+                        pass.dt,
+                    );
+                }
+            }
+        }
+        total
+    }
+}
+
+fn clear<const D: usize>(array: &mut [Node], rows: &[crate::grid::Row<D>], parallel: bool) {
+    if array.is_empty() {
+        return;
+    }
+    if parallel {
+        array.par_chunks_mut(1 << 14).for_each(|chunk| chunk.fill(Node::default()));
+    } else {
+        for row in rows {
+            array[row.start as usize..(row.start + row.len) as usize].fill(Node::default());
+        }
+    }
+}
+
+/// The kernels of `stencil`, compiled for wide instructions.
+#[cfg(target_arch = "x86_64")]
+mod wide {
+    use super::*;
+    use crate::solver::lane::Avx;
+
+    #[target_feature(enable = "avx2,fma")]
+    pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer, const MOMENTUM: bool, const FORCE: bool>(
+        pass: &Pass<'_, D, B, T>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        edge: i32,
+        main: *mut Node,
+        force: *mut Node,
+    ) {
+        // SAFETY: passed on to the caller
+        unsafe { super::scatter::<Avx, D, N, B, T, MOMENTUM, FORCE>(pass, columns, block, edge, main, force) }
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    pub unsafe fn scatter_forces<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+        pass: &Pass<'_, D, B, T>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        edge: i32,
+        nodes: *mut Node,
+        forces: &[(u32, Vector<D>)],
+    ) {
+        // SAFETY: passed on to the caller
+        unsafe { super::scatter_forces::<Avx, D, N, B, T>(pass, columns, block, edge, nodes, forces) }
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    #[allow(clippy::too_many_arguments)]
+    pub unsafe fn gather<
+        const D: usize,
+        const N: usize,
+        B: Basis<N>,
+        T: Transfer,
+        const VELOCITY: bool,
+        const MOVE: bool,
+        const RATE: bool,
+        const SAME: bool,
+    >(
+        pass: &Pass<'_, D, B, T>,
+        columns: &Columns<D>,
+        tile: &Tile<D>,
+        reach: &Reach<D>,
+        rows: std::ops::Range<usize>,
+        sources: &Sources,
+        rates: &mut Rates<D>,
+    ) -> Gathered {
+        // SAFETY: passed on to the caller
+        unsafe {
+            super::gather::<Avx, D, N, B, T, VELOCITY, MOVE, RATE, SAME>(pass, columns, tile, reach, rows, sources, rates)
+        }
+    }
+}
+
+#[allow(dead_code)]
+fn assert_lane<L: Lane>() {}

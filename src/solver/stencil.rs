@@ -1,0 +1,759 @@
+//! The hot loops: from the points of one block to the grid nodes around them and back.
+//!
+//! Weights factorise axis by axis, so a stencil of N^D nodes costs a few operations a node. All loops are generic over
+//! [`Lane`], once with wide instructions and once without; `plain` beside this file says what they mean.
+//!
+//! Everything `unsafe` here rests on three facts. A point's stencil starts at most one node outside its block (checked by
+//! [`gather`] whenever a point moves, and by the sort, which refuses points that are not finite or outside the grid), so
+//! [`Tile`] addresses only stored nodes. Blocks that are scattered at the same time have the same colour, so they share no
+//! node. Blocks hold disjoint ranges of rows, so no two threads touch the same point.
+
+use super::lane::Lane;
+use crate::basis::Basis;
+use crate::grid::{Block, Geometry, Node};
+use crate::math::{Matrix, Vector, packed_len, unpack};
+use crate::state::Particles;
+use crate::transfer::Transfer;
+
+/// Points that are gathered together before their law is asked, so that their velocity gradients stay in the first cache.
+pub const CHUNK: usize = 64;
+
+/// Storage of the nodes that the points of one block may reach: all rows of an `edge + N + 1` cube, one node below the block
+/// to `N` nodes above it.
+pub struct Tile<const D: usize> {
+    rows: [usize; Self::MAX_ROWS],
+    width: usize,
+    origin: [i32; D],
+}
+
+impl<const D: usize> Tile<D> {
+    const MAX_ROWS: usize = 169;
+
+    /// The tile of a block of `edge` nodes for stencils of `n` nodes.
+    #[inline(always)]
+    pub fn new(block: &Block<D>, edge: i32, n: usize) -> Self {
+        let width = edge as usize + n + 1;
+        let edge = edge as usize;
+        let mut rows = [0; Self::MAX_ROWS];
+        // (which of the three neighbouring blocks, row within it) of row t of the tile
+        let place = |t: usize| match t {
+            0 => (0, edge - 1),
+            t if t <= edge => (1, t - 1),
+            t => (2, t - 1 - edge),
+        };
+        match D {
+            1 => rows[0] = block.anchors[0].0 as usize - 1,
+            2 => {
+                for t in 0..width {
+                    let (column, i) = place(t);
+                    let (base, stride) = block.anchors[column];
+                    rows[t] = base as usize + i * stride as usize - 1;
+                }
+            }
+            _ => {
+                for t in 0..width {
+                    let (column, i) = place(t);
+                    for u in 0..width {
+                        let (next, j) = place(u);
+                        let (base, stride) = block.anchors[3 * column + next];
+                        rows[t * width + u] = base as usize + (i * edge + j) * stride as usize - 1;
+                    }
+                }
+            }
+        }
+        Self {
+            rows,
+            width,
+            origin: block.origin,
+        }
+    }
+
+    /// Where a stencil that starts at node `first` lies in the tile.
+    #[inline(always)]
+    fn local(&self, first: [i32; D]) -> [usize; D] {
+        std::array::from_fn(|a| {
+            let t = first[a] - self.origin[a] + 1;
+            debug_assert!(t >= 0 && (D == 1 || (t as usize) < self.width));
+            t as usize
+        })
+    }
+}
+
+/// `N^D` nodes: for a stencil at `t`, calls `visit(storage index of the first node, i, j)` for each row of N nodes.
+macro_rules! for_each_row {
+    ($tile:expr, $t:expr, $n:expr, |$at:ident, $i:ident, $j:ident| $body:block) => {
+        match D {
+            1 => {
+                let ($i, $j) = (0_usize, 0_usize);
+                let $at = $tile.rows[0] + $t[0];
+                $body
+            }
+            2 => {
+                let $j = 0_usize;
+                for $i in 0..$n {
+                    let $at = $tile.rows[$t[0] + $i] + $t[1];
+                    $body
+                }
+            }
+            _ => {
+                for $i in 0..$n {
+                    for $j in 0..$n {
+                        let $at = $tile.rows[($t[0] + $i) * $tile.width + $t[1] + $j] + $t[2];
+                        $body
+                    }
+                }
+            }
+        }
+    };
+}
+
+/// Adds `q N_I` to every node of a stencil.
+#[inline(always)]
+unsafe fn scatter_value<L: Lane, const D: usize, const N: usize>(
+    nodes: *mut Node,
+    tile: &Tile<D>,
+    t: [usize; D],
+    w: &[[f64; N]; D],
+    q: L,
+) {
+    let last: [L; N] = std::array::from_fn(|k| L::splat(w[D - 1][k]));
+    for_each_row!(tile, t, N, |at, i, j| {
+        let row = match D {
+            1 => q,
+            2 => q.mul(L::splat(w[0][i])),
+            _ => q.mul(L::splat(w[0][i] * w[1][j])),
+        };
+        for k in 0..N {
+            // SAFETY: the tile addresses stored nodes only (module header)
+            unsafe {
+                let node = nodes.add(at + k).cast::<f64>();
+                row.mul_add(last[k], L::load(node)).store(node);
+            }
+        }
+    });
+}
+
+/// Adds `Σ_a x[a][i_a] Π_{b≠a} N_b` to every node (i_1 … i_D) of a stencil: a value with x[0] = q N_1, and anything that has a
+/// different function along one axis, such as a gradient.
+#[inline(always)]
+unsafe fn scatter_linear<L: Lane, const D: usize, const N: usize>(
+    nodes: *mut Node,
+    tile: &Tile<D>,
+    t: [usize; D],
+    w: &[[f64; N]; D],
+    x: &[[L; N]; D],
+) {
+    match D {
+        1 => {
+            for k in 0..N {
+                // SAFETY: the tile addresses stored nodes only (module header)
+                unsafe {
+                    let node = nodes.add(tile.rows[0] + t[0] + k).cast::<f64>();
+                    x[0][k].add(L::load(node)).store(node);
+                }
+            }
+        }
+        2 => {
+            let last: [L; N] = std::array::from_fn(|k| L::splat(w[1][k]));
+            for i in 0..N {
+                let at = tile.rows[t[0] + i] + t[1];
+                let wi = L::splat(w[0][i]);
+                for k in 0..N {
+                    // SAFETY: as above
+                    unsafe {
+                        let node = nodes.add(at + k).cast::<f64>();
+                        let sum = x[0][i].mul_add(last[k], L::load(node));
+                        wi.mul_add(x[1][k], sum).store(node);
+                    }
+                }
+            }
+        }
+        _ => {
+            let plane: [[L; N]; N] = std::array::from_fn(|j| {
+                std::array::from_fn(|k| L::splat(w[1][j] * w[2][k]))
+            });
+            let slant: [[L; N]; N] = std::array::from_fn(|j| {
+                std::array::from_fn(|k| {
+                    let first = x[1][j].mul(L::splat(w[2][k]));
+                    x[2][k].mul_add(L::splat(w[1][j]), first)
+                })
+            });
+            for i in 0..N {
+                let wi = L::splat(w[0][i]);
+                for j in 0..N {
+                    let at = tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2];
+                    for k in 0..N {
+                        // SAFETY: as above
+                        unsafe {
+                            let node = nodes.add(at + k).cast::<f64>();
+                            let sum = x[0][i].mul_add(plane[j][k], L::load(node));
+                            wi.mul_add(slant[j][k], sum).store(node);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Σ_I N_I node_I.
+#[inline(always)]
+unsafe fn gather_value<L: Lane, const D: usize, const N: usize>(
+    nodes: *const Node,
+    tile: &Tile<D>,
+    t: [usize; D],
+    w: &[[f64; N]; D],
+) -> L {
+    let last: [L; N] = std::array::from_fn(|k| L::splat(w[D - 1][k]));
+    let mut sum = L::splat(0.0);
+    for_each_row!(tile, t, N, |at, i, j| {
+        let mut row = L::splat(0.0);
+        for k in 0..N {
+            // SAFETY: the tile addresses stored nodes only (module header)
+            row = unsafe { last[k].mul_add(L::load(nodes.add(at + k).cast()), row) };
+        }
+        sum = match D {
+            1 => row,
+            2 => row.mul_add(L::splat(w[0][i]), sum),
+            _ => row.mul_add(L::splat(w[0][i] * w[1][j]), sum),
+        };
+    });
+    sum
+}
+
+/// Σ_I N_I node_I, and for each axis a the same with the functions `g` in place of N along that axis: Σ_I ∂_a N_I node_I.
+#[inline(always)]
+unsafe fn gather_linear<L: Lane, const D: usize, const N: usize>(
+    nodes: *const Node,
+    tile: &Tile<D>,
+    t: [usize; D],
+    w: &[[f64; N]; D],
+    g: &[[f64; N]; D],
+) -> (L, [L; D]) {
+    let zero = L::splat(0.0);
+    let last: [L; N] = std::array::from_fn(|k| L::splat(w[D - 1][k]));
+    let slope: [L; N] = std::array::from_fn(|k| L::splat(g[D - 1][k]));
+    // (value, slope along the last axis) of N nodes in a row
+    let row = |at: usize| {
+        let (mut value, mut change) = (zero, zero);
+        for k in 0..N {
+            // SAFETY: the tile addresses stored nodes only (module header)
+            let node = unsafe { L::load(nodes.add(at + k).cast()) };
+            value = last[k].mul_add(node, value);
+            change = slope[k].mul_add(node, change);
+        }
+        (value, change)
+    };
+    let mut gradient = [zero; D];
+    let mut sum = zero;
+    match D {
+        1 => (sum, gradient[0]) = row(tile.rows[0] + t[0]),
+        2 => {
+            for i in 0..N {
+                let (value, change) = row(tile.rows[t[0] + i] + t[1]);
+                let wi = L::splat(w[0][i]);
+                sum = wi.mul_add(value, sum);
+                gradient[0] = L::splat(g[0][i]).mul_add(value, gradient[0]);
+                gradient[1] = wi.mul_add(change, gradient[1]);
+            }
+        }
+        _ => {
+            for i in 0..N {
+                let (mut value, mut dy, mut dz) = (zero, zero, zero);
+                for j in 0..N {
+                    let (v, c) =
+                        row(tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2]);
+                    let wj = L::splat(w[1][j]);
+                    value = wj.mul_add(v, value);
+                    dy = L::splat(g[1][j]).mul_add(v, dy);
+                    dz = wj.mul_add(c, dz);
+                }
+                let wi = L::splat(w[0][i]);
+                sum = wi.mul_add(value, sum);
+                gradient[0] = L::splat(g[0][i]).mul_add(value, gradient[0]);
+                gradient[1] = wi.mul_add(dy, gradient[1]);
+                gradient[2] = wi.mul_add(dz, gradient[2]);
+            }
+        }
+    }
+    (sum, gradient)
+}
+
+/// The first `D` numbers of a lane.
+#[inline(always)]
+fn vector<L: Lane, const D: usize>(lane: L) -> Vector<D> {
+    let numbers = lane.array();
+    Vector::from_fn(|a, _| numbers[a])
+}
+
+/// A matrix from its columns.
+#[inline(always)]
+fn matrix<L: Lane, const D: usize>(columns: [L; D]) -> Matrix<D> {
+    let columns = columns.map(L::array);
+    Matrix::from_fn(|row, column| columns[column][row])
+}
+
+/// The columns of a body's points, shared by threads that work on disjoint rows.
+#[derive(Clone, Copy)]
+pub struct Columns<const D: usize> {
+    position: *mut Vector<D>,
+    velocity: *mut Vector<D>,
+    affine: *mut Matrix<D>,
+    mass: *const f64,
+    volume: *const f64,
+    stress: *mut f64,
+    hoop_stress: *mut f64,
+    hoop_stretch: *mut f64,
+    axisymmetric: bool,
+}
+
+// SAFETY: threads are given disjoint rows (module header)
+unsafe impl<const D: usize> Send for Columns<D> {}
+// SAFETY: as above
+unsafe impl<const D: usize> Sync for Columns<D> {}
+
+impl<const D: usize> Columns<D> {
+    /// Pointers to the columns, valid until the columns are moved or resized.
+    pub fn new(particles: &mut Particles<D>) -> Self {
+        Self {
+            position: particles.position.as_mut_ptr(),
+            velocity: particles.velocity.as_mut_ptr(),
+            affine: particles.affine.as_mut_ptr(),
+            mass: particles.mass.as_ptr(),
+            volume: particles.initial_volume.as_ptr(),
+            stress: particles.stress.as_mut_ptr(),
+            hoop_stress: particles.hoop_stress.as_mut_ptr(),
+            hoop_stretch: particles.hoop_stretch.as_mut_ptr(),
+            axisymmetric: !particles.hoop_stretch.is_empty(),
+        }
+    }
+
+    /// Stress, hoop stress and hoop stretch of the given rows, for their law.
+    ///
+    /// # Safety
+    /// No other thread uses these rows meanwhile.
+    pub unsafe fn law_columns(
+        &self,
+        first: usize,
+        count: usize,
+    ) -> (&mut [f64], &mut [f64], &mut [f64]) {
+        let width = packed_len(D);
+        let hoops = if self.axisymmetric { count } else { 0 };
+        let offset = if self.axisymmetric { first } else { 0 };
+        // SAFETY: the rows exist, and the caller alone uses them
+        unsafe {
+            (
+                std::slice::from_raw_parts_mut(self.stress.add(first * width), count * width),
+                std::slice::from_raw_parts_mut(self.hoop_stress.add(offset), hoops),
+                std::slice::from_raw_parts_mut(self.hoop_stretch.add(offset), hoops),
+            )
+        }
+    }
+}
+
+/// What all points of a body have in common in one pass over them.
+pub struct Pass<'a, const D: usize, B, T> {
+    /// The grid.
+    pub geometry: &'a Geometry<D>,
+    /// The basis along each axis.
+    pub basis: [B; D],
+    /// The transfer.
+    pub transfer: T,
+    /// Δt, s.
+    pub dt: f64,
+}
+
+/// The stencil of one point.
+struct Stencil<const D: usize, const N: usize> {
+    at: [usize; D],
+    weight: [[f64; N]; D],
+    /// Per metre.
+    slope: [[f64; N]; D],
+    first: [i32; D],
+    x: [f64; D],
+}
+
+impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
+    #[inline(always)]
+    fn stencil<const N: usize>(&self, tile: &Tile<D>, position: &Vector<D>) -> Stencil<D, N>
+    where
+        B: Basis<N>,
+    {
+        let inverse = 1.0 / self.geometry.cell_size;
+        let x = self.geometry.in_cells(position, inverse);
+        let axes: [_; D] =
+            std::array::from_fn(|a| self.basis[a].axis(x[a], self.geometry.cells[a]));
+        let first = axes.map(|axis| axis.first);
+        Stencil {
+            at: tile.local(first),
+            weight: axes.map(|axis| axis.weight),
+            slope: axes.map(|axis| axis.slope.map(|slope| slope * inverse)),
+            first,
+            x,
+        }
+    }
+
+    /// x_i − x of the nodes of a stencil along each axis, in cells.
+    #[inline(always)]
+    fn arms<const N: usize>(&self, s: &Stencil<D, N>) -> [[f64; N]; D]
+    where
+        B: Basis<N>,
+    {
+        std::array::from_fn(|a| {
+            std::array::from_fn(|i| {
+                self.basis[a].position(s.first[a] + i as i32, self.geometry.cells[a]) - s.x[a]
+            })
+        })
+    }
+
+    /// The functions whose gathered velocities are the columns of APIC's C, per metre: N_i (x_i − x) / D with
+    /// D = Σ N_i (x_i − x)²; tensor-product bases that are complete to first order have a diagonal D.
+    #[inline(always)]
+    fn affine_weights<const N: usize>(&self, s: &Stencil<D, N>) -> [[f64; N]; D]
+    where
+        B: Basis<N>,
+    {
+        if B::AFFINE_IS_SLOPE {
+            return s.slope;
+        }
+        let arms = self.arms(s);
+        std::array::from_fn(|a| {
+            let inertia: f64 = (0..N).map(|i| s.weight[a][i] * arms[a][i] * arms[a][i]).sum();
+            let scale = 1.0 / (inertia.max(f64::MIN_POSITIVE) * self.geometry.cell_size);
+            std::array::from_fn(|i| s.weight[a][i] * arms[a][i] * scale)
+        })
+    }
+}
+
+/// Adds the points of one block to the grid: with `MOMENTUM` their momentum and mass, with `FORCE` their internal forces, into
+/// `main`; into `force` (in N) where the transfer needs forces by themselves, else as impulses into `main` too.
+///
+/// # Safety
+/// See the module header; `main` and `force` are arrays of the grid with all of the tile's nodes (`force` may dangle where the
+/// transfer does not use it), and no other thread adds to nodes of this tile meanwhile.
+#[inline(always)]
+pub unsafe fn scatter<
+    L: Lane,
+    const D: usize,
+    const N: usize,
+    B: Basis<N>,
+    T: Transfer,
+    const MOMENTUM: bool,
+    const FORCE: bool,
+>(
+    pass: &Pass<'_, D, B, T>,
+    columns: &Columns<D>,
+    block: &Block<D>,
+    edge: i32,
+    main: *mut Node,
+    force: *mut Node,
+) {
+    let tile = Tile::new(block, edge, N);
+    let width = packed_len(D);
+    for p in block.points() {
+        // SAFETY: row p belongs to this block alone (module header)
+        let (position, velocity, mass) = unsafe {
+            (*columns.position.add(p), *columns.velocity.add(p), *columns.mass.add(p))
+        };
+        let s = pass.stencil::<N>(&tile, &position);
+        let mut value = [0.0; 4]; // goes with N
+        let mut hoop = 0.0; // radial force that goes with N
+        let mut columns_of_x = [[L::splat(0.0); N]; D];
+        if MOMENTUM {
+            for a in 0..D {
+                value[a] = mass * velocity[a];
+            }
+            value[D] = mass;
+            if T::AFFINE {
+                let arms = pass.arms(&s);
+                // SAFETY: as above
+                let affine = unsafe { *columns.affine.add(p) } * (mass * pass.geometry.cell_size);
+                for a in 0..D {
+                    let column = column::<L, D>(&affine, a);
+                    for i in 0..N {
+                        columns_of_x[a][i] = column.mul(L::splat(s.weight[a][i] * arms[a][i]));
+                    }
+                }
+            }
+        }
+        let mut forces = [[L::splat(0.0); N]; D];
+        if FORCE {
+            // SAFETY: as above
+            let (volume, stress) = unsafe {
+                (
+                    *columns.volume.add(p),
+                    std::slice::from_raw_parts(columns.stress.add(p * width), width),
+                )
+            };
+            let scale = if T::CHANGE { -volume } else { -volume * pass.dt };
+            let stress: Matrix<D> = unpack::<D>(stress) * scale;
+            for a in 0..D {
+                let column = column::<L, D>(&stress, a);
+                for i in 0..N {
+                    let x = if T::CHANGE { &mut forces } else { &mut columns_of_x };
+                    x[a][i] = column.mul_add(L::splat(s.slope[a][i]), x[a][i]);
+                }
+            }
+            if D == 2 && columns.axisymmetric {
+                // SAFETY: as above
+                hoop = scale * unsafe { *columns.hoop_stress.add(p) } / position[0];
+            }
+        }
+        // SAFETY: the tile holds every node of the stencil (module header)
+        unsafe {
+            if T::CHANGE {
+                if MOMENTUM {
+                    add_point(main, &tile, &s, L::new(value), T::AFFINE, columns_of_x);
+                }
+                if FORCE {
+                    add_point(force, &tile, &s, L::new([hoop, 0.0, 0.0, 0.0]), true, forces);
+                }
+            } else {
+                value[0] += hoop;
+                let linear = FORCE || T::AFFINE;
+                add_point(main, &tile, &s, L::new(value), linear, columns_of_x);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+unsafe fn add_point<L: Lane, const D: usize, const N: usize>(
+    nodes: *mut Node,
+    tile: &Tile<D>,
+    s: &Stencil<D, N>,
+    value: L,
+    linear: bool,
+    mut x: [[L; N]; D],
+) {
+    // SAFETY: the caller's tile holds every node of the stencil
+    unsafe {
+        if linear {
+            for i in 0..N {
+                x[0][i] = value.mul_add(L::splat(s.weight[0][i]), x[0][i]);
+            }
+            scatter_linear(nodes, tile, s.at, &s.weight, &x);
+        } else {
+            scatter_value(nodes, tile, s.at, &s.weight, value);
+        }
+    }
+}
+
+/// Column `a` of a matrix as a lane.
+#[inline(always)]
+fn column<L: Lane, const D: usize>(m: &Matrix<D>, a: usize) -> L {
+    let mut numbers = [0.0; 4];
+    for row in 0..D {
+        numbers[row] = m[(row, a)];
+    }
+    L::new(numbers)
+}
+
+/// Adds a given force on each listed point of a block to `nodes`, N.
+///
+/// # Safety
+/// As for [`scatter`].
+#[inline(always)]
+pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+    pass: &Pass<'_, D, B, T>,
+    columns: &Columns<D>,
+    block: &Block<D>,
+    edge: i32,
+    nodes: *mut Node,
+    forces: &[(u32, Vector<D>)],
+) {
+    let tile = Tile::new(block, edge, N);
+    for (p, force) in forces {
+        // SAFETY: row p belongs to this block alone (module header)
+        let position = unsafe { *columns.position.add(*p as usize) };
+        let s = pass.stencil::<N>(&tile, &position);
+        let mut value = [0.0; 4];
+        value[..D].copy_from_slice(force.as_slice());
+        // SAFETY: the tile holds every node of the stencil
+        unsafe { scatter_value::<L, D, N>(nodes, &tile, s.at, &s.weight, L::new(value)) };
+    }
+}
+
+/// What the gathering of one block leaves behind.
+#[derive(Clone, Copy, Debug)]
+pub struct Gathered {
+    /// Σ ½ m v² after the step, J.
+    pub kinetic: f64,
+    /// Largest v² of a point, m²/s².
+    pub speed_squared: f64,
+    /// Whether all points are finite, inside the grid and within the reach of their block.
+    pub within: bool,
+}
+
+impl Gathered {
+    /// Nothing yet.
+    pub const NONE: Self = Self {
+        kinetic: 0.0,
+        speed_squared: 0.0,
+        within: true,
+    };
+
+    /// Both together.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            kinetic: self.kinetic + other.kinetic,
+            speed_squared: self.speed_squared.max(other.speed_squared),
+            within: self.within && other.within,
+        }
+    }
+}
+
+/// Velocity gradients of up to [`CHUNK`] points.
+pub struct Rates<const D: usize> {
+    /// L, 1/s.
+    pub gradient: [Matrix<D>; CHUNK],
+    /// v_r / r, 1/s; only set in an axisymmetric scene.
+    pub hoop: [f64; CHUNK],
+}
+
+impl<const D: usize> Rates<D> {
+    /// All zero.
+    pub fn zeros() -> Self {
+        Self {
+            gradient: [Matrix::zeros(); CHUNK],
+            hoop: [0.0; CHUNK],
+        }
+    }
+}
+
+/// The arrays of the grid that points read.
+#[derive(Clone, Copy)]
+pub struct Sources {
+    /// Velocities after the step, m/s.
+    pub main: *const Node,
+    /// Their change over the step, m/s.
+    pub change: *const Node,
+    /// The velocities whose gradient strains the points, where they are not `main`.
+    pub second: *const Node,
+}
+
+/// Brings the grid to the given rows (at most [`CHUNK`]) of a block: with `VELOCITY` new velocities (and affine fields), with `RATE` velocity
+/// gradients, and with `MOVE` new positions. The gradients come from `main` with `SAME`, else from `second`.
+///
+/// # Safety
+/// See the module header; `sources` are arrays of the grid with all of the tile's nodes (those that the pass does not use may
+/// dangle), and no other thread uses these rows meanwhile.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe fn gather<
+    L: Lane,
+    const D: usize,
+    const N: usize,
+    B: Basis<N>,
+    T: Transfer,
+    const VELOCITY: bool,
+    const MOVE: bool,
+    const RATE: bool,
+    const SAME: bool,
+>(
+    pass: &Pass<'_, D, B, T>,
+    columns: &Columns<D>,
+    tile: &Tile<D>,
+    reach: &Reach<D>,
+    rows: std::ops::Range<usize>,
+    sources: &Sources,
+    rates: &mut Rates<D>,
+) -> Gathered {
+    let mut gathered = Gathered::NONE;
+    let inverse = 1.0 / pass.geometry.cell_size;
+    let blend = pass.transfer.ratio() < 1.0;
+    let first_row = rows.start;
+    for p in rows {
+        // SAFETY: row p belongs to this block alone (module header)
+        let mut position = unsafe { *columns.position.add(p) };
+        let s = pass.stencil::<N>(tile, &position);
+        let (t, w) = (s.at, &s.weight);
+        let mut new = L::splat(0.0);
+        let mut hoop_velocity = 0.0;
+        // SAFETY: the tile holds every node of the stencil (module header)
+        unsafe {
+            if RATE {
+                let from = if SAME { sources.main } else { sources.second };
+                let (value, gradient) = gather_linear::<L, D, N>(from, tile, t, w, &s.slope);
+                rates.gradient[p - first_row] = matrix::<L, D>(gradient);
+                hoop_velocity = value.array()[0];
+                if SAME {
+                    new = value;
+                }
+            }
+            if VELOCITY && T::AFFINE {
+                let g = pass.affine_weights(&s);
+                let (value, gradient) = gather_linear::<L, D, N>(sources.main, tile, t, w, &g);
+                *columns.affine.add(p) = matrix::<L, D>(gradient);
+                new = value;
+            } else if !(RATE && SAME) && (MOVE || (VELOCITY && (blend || !T::CHANGE))) {
+                new = gather_value::<L, D, N>(sources.main, tile, t, w);
+            }
+        }
+        if RATE && D == 2 && columns.axisymmetric {
+            let hoop = hoop_velocity / position[0];
+            rates.hoop[p - first_row] = hoop;
+            // SAFETY: as above
+            unsafe { *columns.hoop_stretch.add(p) *= 1.0 + pass.dt * hoop };
+        }
+        let new: Vector<D> = vector(new);
+        if VELOCITY {
+            // SAFETY: as above
+            let (old, mass) = unsafe { (*columns.velocity.add(p), *columns.mass.add(p)) };
+            let change: Vector<D> = if T::CHANGE {
+                // SAFETY: as above
+                vector(unsafe { gather_value::<L, D, N>(sources.change, tile, t, w) })
+            } else {
+                Vector::zeros()
+            };
+            let velocity =
+                Vector::from_fn(|a, _| pass.transfer.velocity(old[a], new[a], change[a]));
+            // SAFETY: as above
+            unsafe { *columns.velocity.add(p) = velocity };
+            let square = velocity.norm_squared();
+            gathered.kinetic += 0.5 * mass * square;
+            // `max` would hide a velocity that is not a number
+            gathered.within &= square.is_finite();
+            gathered.speed_squared = gathered.speed_squared.max(square);
+        }
+        if MOVE {
+            for a in 0..D {
+                position[a] += pass.dt * new[a];
+            }
+            // SAFETY: as above
+            unsafe { *columns.position.add(p) = position };
+            gathered.within &= reach.holds(&pass.geometry.in_cells(&position, inverse));
+        }
+    }
+    gathered
+}
+
+/// The part of the grid, in cells, in which a point may be as long as it is counted to a block.
+#[derive(Clone, Copy, Debug)]
+pub struct Reach<const D: usize> {
+    low: [f64; D],
+    high: [f64; D],
+}
+
+impl<const D: usize> Reach<D> {
+    /// One node more than the block on either side, within the grid; `shift` is where stencils start relative to their point.
+    #[inline(always)]
+    pub fn new(origin: [i32; D], edge: i32, cells: [i32; D], shift: [f64; D]) -> Self {
+        // a hair inside, so that rounding cannot put a stencil's start beyond the tile
+        let hair = 1e-9 + cells.iter().fold(0.0, |most: f64, &n| most.max(f64::from(n))) * 1e-15;
+        Self {
+            low: std::array::from_fn(|a| {
+                (f64::from(origin[a] - 1) - shift[a] + hair).max(0.0)
+            }),
+            high: std::array::from_fn(|a| {
+                (f64::from(origin[a] + edge + 1) - shift[a] - hair).min(f64::from(cells[a]))
+            }),
+        }
+    }
+
+    /// Whether a position is inside; false if it is not a number.
+    #[inline(always)]
+    pub fn holds(&self, x: &[f64; D]) -> bool {
+        (0..D).all(|a| x[a] >= self.low[a] && x[a] <= self.high[a])
+    }
+}
