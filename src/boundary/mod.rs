@@ -1,5 +1,6 @@
 //! Conditions on grid nodes. A condition knows one node: where it is, how it would move, and the time.
 
+use crate::input::Reader;
 use crate::math::Vector;
 
 /// One node, as a condition sees it.
@@ -11,15 +12,85 @@ pub struct Node<const D: usize> {
     pub time: f64,
 }
 
-/// What a boundary imposes on a node.
+/// What a boundary imposes on a node. Imposing twice is imposing once, and a component that it changes takes the value that
+/// [`Condition::wall_velocity`] has there.
 pub trait Condition<const D: usize>: Send + Sync {
     /// The velocity, m/s, of a node that would move with `velocity` if the condition were not there.
     fn impose(&self, node: &Node<D>, velocity: &Vector<D>) -> Vector<D>;
 
-    /// The velocity of the wall itself, m/s: the reaction times this is the work that the boundary does.
+    /// The velocity of the wall itself, m/s, zero in components that it leaves free: the reaction times this is the work that
+    /// the boundary does.
     fn wall_velocity(&self, node: &Node<D>) -> Vector<D>;
 }
 
-/// TODO registry
-#[derive(Clone, Debug)]
-pub enum ConditionChoice {}
+/// A side of a box: an axis (0, 1, 2) and which end of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Side {
+    /// 0, 1 or 2 for x, y or z.
+    pub axis: usize,
+    /// True for `_max`, false for `_min`.
+    pub upper: bool,
+}
+
+impl Side {
+    /// All names, those of the first axis first.
+    pub const NAMES: [&'static str; 6] = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"];
+
+    /// Its name in a scenario.
+    pub fn name(&self) -> &'static str {
+        Self::NAMES[2 * self.axis + usize::from(self.upper)]
+    }
+}
+
+/// Where a condition acts, as far as its parameters may depend on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Of the scene.
+    pub dimension: usize,
+    /// The side of the grid, if it acts on one.
+    pub side: Option<Side>,
+}
+
+/// What a contributor writes besides [`Condition`]: how its parameters are read.
+pub trait ConditionParameters: Sized {
+    /// Reads every key it knows; `None` if a problem was found (and recorded in the reader).
+    fn read(reader: &mut Reader<'_>, place: &Place) -> Option<Self>;
+}
+
+macro_rules! conditions {
+    ($($name:literal => $module:ident::$condition:ident),* $(,)?) => {
+        $(mod $module; pub use $module::$condition;)*
+
+        /// Every condition, by its name in a scenario.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum ConditionChoice { $(#[doc = concat!("`", $name, "`")] $condition($condition)),* }
+
+        impl ConditionChoice {
+            /// All names.
+            pub const NAMES: &'static [&'static str] = &[$($name),*];
+
+            /// Its name in a scenario.
+            pub fn name(&self) -> &'static str { match self { $(Self::$condition(_) => $name),* } }
+
+            /// Reads the condition called `name` with its parameters.
+            pub fn read(name: &str, reader: &mut Reader<'_>, place: &Place) -> Option<Self> {
+                match name { $($name => $condition::read(reader, place).map(Self::$condition),)* _ => None }
+            }
+
+            /// The condition itself, for nodes of a `D`-dimensional grid.
+            pub fn build<const D: usize>(&self) -> Box<dyn Condition<D>> {
+                match self { $(Self::$condition(condition) => Box::new(condition.clone())),* }
+            }
+        }
+    };
+}
+
+conditions! {
+    "fixed" => fixed::Fixed,
+    "roller" => roller::Roller,
+    "driven" => driven::Driven,
+    "wall" => wall::Wall,
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,43 @@
+//! Nodes that move as prescribed, in some directions or in all.
+
+use super::{Condition, ConditionParameters, Node, Place};
+use crate::input::{Expression, Reader, Unit, Variables};
+use crate::math::Vector;
+
+/// v_i = given_i(x, y, z, t) for every component that is not free.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Driven {
+    /// Velocity, m/s, one entry an axis; `None` is free.
+    pub velocity: Vec<Option<Expression>>,
+}
+
+impl ConditionParameters for Driven {
+    fn read(reader: &mut Reader<'_>, place: &Place) -> Option<Self> {
+        let velocity = reader.expressions_or_word("velocity", Unit::VELOCITY, place.dimension, "xyzt", "free")?;
+        if velocity.iter().all(Option::is_none) {
+            reader.problem("velocity", "every component is \"free\": give at least one, or leave the boundary out");
+            return None;
+        }
+        Some(Self { velocity })
+    }
+}
+
+impl Driven {
+    fn given<const D: usize>(&self, node: &Node<D>, axis: usize) -> Option<f64> {
+        let mut at = Variables { position: [0.0; 3], time: node.time };
+        for axis in 0..D {
+            at.position[axis] = node.position[axis];
+        }
+        self.velocity[axis].as_ref().map(|velocity| velocity.value(&at))
+    }
+}
+
+impl<const D: usize> Condition<D> for Driven {
+    fn impose(&self, node: &Node<D>, velocity: &Vector<D>) -> Vector<D> {
+        Vector::from_fn(|axis, _| self.given(node, axis).unwrap_or(velocity[axis]))
+    }
+
+    fn wall_velocity(&self, node: &Node<D>) -> Vector<D> {
+        Vector::from_fn(|axis, _| self.given(node, axis).unwrap_or(0.0))
+    }
+}

@@ -1,0 +1,222 @@
+//! Fills shapes with material points. Knows geometry and the size of a cell; knows no mass and no motion.
+//!
+//! A box gets points of its own spacing that tile it exactly. Any other shape gets those points of a lattice aligned with
+//! the grid's cells that are inside it, and their volumes are scaled so that they add up to the exact one where it is known.
+
+use super::shape::Shape;
+use super::{GridSpec, Region, Scenario};
+use crate::boundary::Side;
+use crate::material::Plane;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// The material points of a body before the first step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointSet {
+    /// Positions, m; axes that the scene does not have are zero.
+    pub positions: Vec<[f64; 3]>,
+    /// Distance between neighbours on each axis, m; 1 m on axes that the scene does not have.
+    pub spacing: [f64; 3],
+    /// What each point stands for: a volume, m³, or an area, m², of the half plane of an axisymmetric scene.
+    cell: f64,
+    /// Whether points are rings around x = 0.
+    rings: bool,
+}
+
+impl PointSet {
+    /// Initial volume of a point, m³. In 1D a cross-section of 1 m² is meant, in 2D a thickness of 1 m, and in an axisymmetric
+    /// scene the full ring 2π r · area.
+    pub fn volume(&self, index: usize) -> f64 {
+        if self.rings { 2.0 * PI * self.positions[index][0] * self.cell } else { self.cell }
+    }
+
+    /// Area, m², of the face that a point shows to a side of the body.
+    pub fn side_area(&self, index: usize, side: Side) -> f64 {
+        let face: f64 = (0..3).filter(|axis| *axis != side.axis).map(|axis| self.spacing[axis]).product();
+        if !self.rings {
+            return face;
+        }
+        let half = if side.upper { 0.5 } else { -0.5 } * self.spacing[0];
+        let radius = self.positions[index][0] + if side.axis == 0 { half } else { 0.0 };
+        2.0 * PI * radius.max(0.0) * face
+    }
+
+    /// The numbers of the points that a load acts on: the outermost layer on a side, or all points inside a box.
+    pub fn selected(&self, on: &Region) -> Vec<usize> {
+        let chosen: Box<dyn Fn(&[f64; 3]) -> bool> = match on {
+            Region::Side(side) => {
+                let (axis, sign) = (side.axis, if side.upper { 1.0 } else { -1.0 });
+                let outermost = (self.positions.iter().map(|at| sign * at[axis])).fold(f64::NEG_INFINITY, f64::max);
+                let depth = 0.5 * self.spacing[axis];
+                Box::new(move |at| sign * at[axis] > outermost - depth)
+            }
+            Region::Box { min, max } => {
+                Box::new(move |at| min.iter().zip(max).zip(at).all(|((min, max), x)| min <= x && x <= max))
+            }
+        };
+        (0..self.positions.len()).filter(|index| chosen(&self.positions[*index])).collect()
+    }
+
+    /// The number of the point closest to a place, the lowest among equals; `None` if there is no point.
+    pub fn nearest(&self, place: &[f64]) -> Option<usize> {
+        let square = |at: &[f64; 3]| -> f64 { place.iter().zip(at).map(|(a, b)| (a - b) * (a - b)).sum() };
+        let distances = self.positions.iter().map(square).enumerate();
+        distances.reduce(|best, next| if next.1 < best.1 { next } else { best }).map(|(index, _)| index)
+    }
+}
+
+/// The points of one body of a scene.
+pub fn body_points(scenario: &Scenario, body: usize) -> PointSet {
+    let body = &scenario.bodies[body];
+    Filling::new(&body.shape, &scenario.grid, &body.particles_per_cell, scenario.plane).points()
+}
+
+/// How many points one body of a scene has.
+pub fn body_point_count(scenario: &Scenario, body: usize) -> u64 {
+    let body = &scenario.bodies[body];
+    Filling::new(&body.shape, &scenario.grid, &body.particles_per_cell, scenario.plane).count()
+}
+
+/// A shape and the lattice that fills it: what can be said before any memory is taken.
+#[derive(Clone, Debug)]
+pub struct Filling<'a> {
+    shape: &'a Shape,
+    dimension: usize,
+    rings: bool,
+    /// Where lattice cell 0 begins.
+    origin: [f64; 3],
+    spacing: [f64; 3],
+    /// Lattice cells that may hold points: `first .. first + count` on each axis.
+    first: [u64; 3],
+    count: [u64; 3],
+}
+
+impl<'a> Filling<'a> {
+    /// Lays the lattice for a shape.
+    pub fn new(shape: &'a Shape, grid: &GridSpec, per_cell: &[u32], plane: Plane) -> Self {
+        let dimension = grid.min.len();
+        let mut filling = Self {
+            shape,
+            dimension,
+            rings: plane == Plane::Axisymmetric,
+            origin: [0.0; 3],
+            spacing: [1.0; 3],
+            first: [0; 3],
+            count: [1; 3],
+        };
+        let bounds = shape.bounds();
+        for axis in 0..dimension {
+            let (min, max, per_cell) = (bounds.min[axis], bounds.max[axis], f64::from(per_cell[axis]));
+            if let Shape::Cuboid(_) = shape {
+                let count = ((max - min) * per_cell / grid.cell_size).round().max(1.0);
+                filling.origin[axis] = min;
+                filling.spacing[axis] = (max - min) / count;
+                filling.count[axis] = count as u64;
+            } else {
+                let spacing = grid.cell_size / per_cell;
+                let number = |x: f64| ((x - grid.min[axis]) / spacing).floor();
+                let last = f64::from(grid.cells[axis]) * per_cell - 1.0;
+                let (first, end) = (number(min).clamp(0.0, last), number(max).clamp(0.0, last));
+                filling.origin[axis] = grid.min[axis];
+                filling.spacing[axis] = spacing;
+                filling.first[axis] = first as u64;
+                filling.count[axis] = (end - first) as u64 + 1;
+            }
+        }
+        filling
+    }
+
+    /// How many lattice points have to be looked at.
+    pub fn candidates(&self) -> f64 {
+        self.count.iter().map(|count| *count as f64).product()
+    }
+
+    /// About how many points there will be, without looking at any.
+    pub fn estimate(&self) -> f64 {
+        match self.shape {
+            Shape::Cuboid(_) => self.candidates(),
+            shape => shape.measure().map_or(self.candidates(), |size| size / self.cell()).min(self.candidates()),
+        }
+    }
+
+    /// How many points there will be.
+    pub fn count(&self) -> u64 {
+        self.inside_count(self.first, self.count)
+    }
+
+    /// Whether at least one point is inside a closed box.
+    pub fn reaches(&self, min: &[f64], max: &[f64]) -> bool {
+        let (mut first, mut count) = (self.first, self.count);
+        for axis in 0..self.dimension {
+            let inside = |k: &u64| (min[axis]..=max[axis]).contains(&self.coordinate(axis, *k));
+            let range = self.first[axis]..self.first[axis] + self.count[axis];
+            let Some(start) = range.clone().find(inside) else { return false };
+            first[axis] = start;
+            count[axis] = (start..range.end).take_while(inside).count() as u64;
+        }
+        self.inside_count(first, count) > 0
+    }
+
+    /// The points, in lexicographic order of x, y, z.
+    pub fn points(&self) -> PointSet {
+        let total = self.count() as usize;
+        let mut positions = Vec::with_capacity(total);
+        for x in self.first[0]..self.first[0] + self.count[0] {
+            self.slice(x, self.first, self.count, |at| positions.push(at));
+        }
+        let mut points = PointSet { positions, spacing: self.spacing, cell: self.cell(), rings: self.rings };
+        let exact = if self.rings { self.shape.revolved() } else { self.shape.measure() };
+        if let Some(exact) = exact {
+            let sum: crate::math::Sum = (0..total).map(|index| points.volume(index)).collect();
+            if sum.value() > 0.0 {
+                points.cell *= exact / sum.value();
+            }
+        }
+        points
+    }
+
+    /// Length, area or volume of a lattice cell.
+    fn cell(&self) -> f64 {
+        self.spacing.iter().product()
+    }
+
+    fn coordinate(&self, axis: usize, index: u64) -> f64 {
+        self.origin[axis] + (index as f64 + 0.5) * self.spacing[axis]
+    }
+
+    fn inside_count(&self, first: [u64; 3], count: [u64; 3]) -> u64 {
+        if let Shape::Cuboid(_) = self.shape {
+            return count.iter().product();
+        }
+        (first[0]..first[0] + count[0])
+            .into_par_iter()
+            .map(|x| {
+                let mut inside = 0;
+                self.slice(x, first, count, |_| inside += 1);
+                inside
+            })
+            .sum()
+    }
+
+    /// Calls `visit` with every point of the slice number `x` across the first axis.
+    fn slice(&self, x: u64, first: [u64; 3], count: [u64; 3], mut visit: impl FnMut([f64; 3])) {
+        let whole = matches!(self.shape, Shape::Cuboid(_));
+        let mut at = [self.coordinate(0, x), 0.0, 0.0];
+        for y in first[1]..first[1] + count[1] {
+            if self.dimension > 1 {
+                at[1] = self.coordinate(1, y);
+            }
+            for z in first[2]..first[2] + count[2] {
+                if self.dimension > 2 {
+                    at[2] = self.coordinate(2, z);
+                }
+                if whole || self.shape.contains(&at[..self.dimension]) {
+                    visit(at);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,37 @@
+//! A shape with holes.
+
+use super::{Bounds, Geometry, Shape};
+use crate::input::Reader;
+
+/// All places of one shape that are in none of several others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// What is cut.
+    pub of: Box<Shape>,
+    /// What is cut away.
+    pub minus: Vec<Shape>,
+}
+
+impl Geometry for Difference {
+    fn read(parent: &mut Reader<'_>, key: &'static str, dimension: usize) -> Option<Self> {
+        let mut reader = parent.table(key)?;
+        let of = reader.table("of").and_then(|mut table| Shape::read(&mut table, dimension));
+        let found = reader.each_table("minus", |table| Shape::read(table, dimension))?;
+        let count = found.len();
+        let minus: Vec<Shape> = found.into_iter().flatten().collect();
+        (minus.len() == count).then_some(Self { of: Box::new(of?), minus })
+    }
+
+    fn contains(&self, at: &[f64]) -> bool {
+        self.of.contains(at) && !self.minus.iter().any(|shape| shape.contains(at))
+    }
+
+    fn bounds(&self) -> Bounds {
+        self.of.bounds()
+    }
+
+    /// Unknown: what is cut away may stick out.
+    fn measure(&self) -> Option<f64> {
+        None
+    }
+}

@@ -1,0 +1,45 @@
+//! Several shapes together.
+
+use super::{Bounds, Geometry, Shape};
+use crate::input::Reader;
+
+/// All places that are inside at least one of several shapes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Union {
+    /// At least one shape.
+    pub shapes: Vec<Shape>,
+}
+
+impl Geometry for Union {
+    fn read(parent: &mut Reader<'_>, key: &'static str, dimension: usize) -> Option<Self> {
+        let found = parent.each_table(key, |table| Shape::read(table, dimension))?;
+        let count = found.len();
+        let shapes: Vec<Shape> = found.into_iter().flatten().collect();
+        if count == 0 {
+            parent.problem(key, "a union needs at least one shape");
+        }
+        (count > 0 && shapes.len() == count).then_some(Self { shapes })
+    }
+
+    fn contains(&self, at: &[f64]) -> bool {
+        self.shapes.iter().any(|shape| shape.contains(at))
+    }
+
+    fn bounds(&self) -> Bounds {
+        let mut all = self.shapes.iter().map(Shape::bounds);
+        let first = all.next().unwrap_or(Bounds { min: Vec::new(), max: Vec::new() });
+        all.fold(first, |a, b| Bounds {
+            min: a.min.iter().zip(&b.min).map(|(a, b)| a.min(*b)).collect(),
+            max: a.max.iter().zip(&b.max).map(|(a, b)| a.max(*b)).collect(),
+        })
+    }
+
+    /// Known only if there is one shape: shapes may overlap.
+    fn measure(&self) -> Option<f64> {
+        if let [shape] = &self.shapes[..] { shape.measure() } else { None }
+    }
+
+    fn revolved(&self) -> Option<f64> {
+        if let [shape] = &self.shapes[..] { shape.revolved() } else { None }
+    }
+}
