@@ -6,9 +6,14 @@
 pub mod basis;
 pub mod boundary;
 pub mod cli;
+pub mod grid;
 pub mod input;
 pub mod material;
 pub mod math;
+pub mod observe;
 pub mod reorder;
+pub mod run;
 pub mod scenario;
+pub mod solver;
+pub mod state;
 pub mod transfer;

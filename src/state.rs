@@ -1,6 +1,6 @@
 //! What a simulation is at one instant: bodies made of material points.
 
-use crate::material::MaterialPoints;
+use crate::material::{MaterialPoints, Present};
 use crate::math::{Matrix, Sum, Vector, packed_len};
 use crate::reorder;
 
@@ -46,6 +46,15 @@ impl<const D: usize> Particles<D> {
     /// The present row of the point with number `id`.
     pub fn row_of(&self, id: u32) -> Option<usize> {
         self.id.iter().position(|&other| other == id)
+    }
+
+    /// What laws see of all points.
+    pub fn present(&self) -> Present<'_> {
+        Present {
+            stress: &self.stress,
+            hoop_stress: &self.hoop_stress,
+            hoop_stretches: &self.hoop_stretch,
+        }
     }
 
     /// Memory of one point's columns, bytes.
@@ -137,13 +146,7 @@ impl<const D: usize> Body<D> {
             position: Vector::from_fn(|a, _| moment[a].value() / mass),
             momentum: Vector::from_fn(|a, _| momentum[a].value()),
             kinetic: kinetic.value(),
-            elastic: self.material.energy(
-                0..p.len(),
-                &p.stress,
-                &p.hoop_stress,
-                &p.hoop_stretch,
-                &p.initial_volume,
-            ),
+            elastic: self.material.energy(0..p.len(), &p.present(), &p.initial_volume),
         }
     }
 

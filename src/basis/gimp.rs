@@ -66,6 +66,10 @@ impl Basis<3> for Gimp {
         }
     }
 
+    fn shift(&self) -> f64 {
+        1.0 - self.half_width
+    }
+
     fn count(&self, cells: i32) -> i32 {
         cells + 3
     }

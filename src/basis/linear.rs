@@ -14,6 +14,8 @@ impl Parameters for Linear {
 }
 
 impl Basis<2> for Linear {
+    const AFFINE_IS_SLOPE: bool = true;
+
     #[inline(always)]
     fn axis(&self, x: f64, cells: i32) -> Axis<2> {
         let first = (x as i32).min(cells - 1);

@@ -28,6 +28,15 @@ pub trait Basis<const N: usize>: Copy + Send + Sync + 'static {
         *self
     }
 
+    /// Whether the slopes serve APIC as well: where a point's velocity field has no other gradient (two nodes an axis), and the
+    /// usual formula would divide zero by zero at a node.
+    const AFFINE_IS_SLOPE: bool = false;
+
+    /// How far before its point a stencil starts: `first = floor(x + shift)`, but for the upper end of the grid.
+    fn shift(&self) -> f64 {
+        0.0
+    }
+
     /// How many functions (nodes) an axis of `cells` cells has.
     fn count(&self, cells: i32) -> i32;
 

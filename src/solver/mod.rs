@@ -35,6 +35,10 @@ pub trait Solver<const D: usize>: Send {
     /// What limits the time step now.
     fn limit(&self, state: &State<D>) -> Limit;
 
+    /// Angular momentum of a body about the origin, kg m²/s, the points' affine fields included: none in 1D, one number in 2D,
+    /// three in 3D.
+    fn angular_momentum(&self, state: &State<D>, body: usize) -> Vec<f64>;
+
     /// Nodes that have storage now.
     fn stored_nodes(&self) -> usize;
 

@@ -191,6 +191,18 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
         );
     }
 
+    /// Σ N_i (x_i − x)² along each axis, m², at a position.
+    fn inertia(&self, body: usize, position: &Vector<D>) -> [f64; D] {
+        let h = self.geometry.cell_size;
+        let x = self.geometry.in_cells(position, 1.0 / h);
+        std::array::from_fn(|a| {
+            let (basis, cells) = (&self.basis[body][a], self.geometry.cells[a]);
+            let axis = basis.axis(x[a], cells);
+            let arm = |i: usize| basis.position(axis.first + i as i32, cells) - x[a];
+            (0..N).map(|i| axis.weight[i] * arm(i) * arm(i)).sum::<f64>() * h * h
+        })
+    }
+
     fn sources(&self) -> Sources {
         Sources {
             main: self.main.as_ptr(),
@@ -206,8 +218,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
             .iter()
             .map(|body| {
                 let p = &body.particles;
-                let stiffness =
-                    body.material.max_stiffness(0..p.len(), &p.stress, &p.hoop_stress, &p.hoop_stretch);
+                let stiffness = body.material.max_stiffness(0..p.len(), &p.present());
                 (stiffness / body.density).sqrt()
             })
             .fold(0.0, f64::max);
@@ -288,6 +299,28 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Solver<D> for Mpm
 
     fn limit(&self, _state: &State<D>) -> Limit {
         Limit { wave_speed: self.wave_speed, particle_speed: self.speed, cell_size: self.geometry.cell_size }
+    }
+
+    fn angular_momentum(&self, state: &State<D>, body: usize) -> Vec<f64> {
+        let p = &state.bodies[body].particles;
+        let pairs: &[(usize, usize)] = match D {
+            1 => &[],
+            2 => &[(0, 1)],
+            _ => &[(1, 2), (2, 0), (0, 1)],
+        };
+        let spin = |&(a, b): &(usize, usize)| {
+            let mut sum = Sum::default();
+            for i in 0..p.len() {
+                let (x, v) = (&p.position[i], &p.velocity[i]);
+                sum.add(p.mass[i] * (x[a] * v[b] - x[b] * v[a]));
+                if let Some(affine) = p.affine.get(i) {
+                    let inertia = self.inertia(body, x);
+                    sum.add(p.mass[i] * (inertia[a] * affine[(b, a)] - inertia[b] * affine[(a, b)]));
+                }
+            }
+            sum.value()
+        };
+        pairs.iter().map(spin).collect()
     }
 
     fn stored_nodes(&self) -> usize {

@@ -1,7 +1,7 @@
 //! Passes over the points, block by block: on one thread or several, with wide instructions or without, always with the same
 //! order of additions at every node.
 
-use super::lane::{Lane, Portable};
+use super::lane::Portable;
 use super::mpm::Mpm;
 use super::stencil::{
     CHUNK, Columns, Gathered, Pass, Rates, Reach, Sources, Tile, gather, scatter, scatter_forces,
@@ -9,7 +9,7 @@ use super::stencil::{
 use crate::basis::Basis;
 use crate::grid::{Block, Node};
 use crate::math::Vector;
-use crate::material::MaterialPoints;
+use crate::material::{Increments, MaterialPoints, StressMut};
 use crate::state::State;
 use crate::transfer::Transfer;
 use rayon::prelude::*;
@@ -265,16 +265,14 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
             if RATE {
                 // SAFETY: these rows belong to this block alone
                 unsafe {
-                    let (stress, hoop_stress, hoop_stretch) = columns.law_columns(first, count);
-                    material.update_range(
-                        first..first + count,
-                        stress,
-                        hoop_stress,
-                        &rates.gradient[..count],
-                        &rates.hoop[..hoop_stretch.len()],
-                        hoop_stretch,
-                        pass.dt,
-                    );
+                    let (plane, hoop, hoop_stretches) = columns.law_columns(first, count);
+                    let increments = Increments {
+                        rates: &rates.gradient[..count],
+                        hoop_rates: &rates.hoop[..hoop_stretches.len()],
+                        hoop_stretches,
+                        dt: pass.dt,
+                    };
+                    material.update(first..first + count, StressMut { plane, hoop }, &increments);
                 }
             }
         }
@@ -353,6 +351,3 @@ mod wide {
         }
     }
 }
-
-#[allow(dead_code)]
-fn assert_lane<L: Lane>() {}

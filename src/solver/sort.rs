@@ -108,7 +108,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
             }
             reorder::cycle_leaders(order, leaders);
             body.particles.permute(order, leaders);
-            body.material.permute(leaders, order);
+            body.material.permute(order, leaders);
         }
         Ok(())
     }

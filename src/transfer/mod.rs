@@ -46,6 +46,9 @@ macro_rules! transfers {
                 match name { $($name => $transfer::read(reader).map(Self::$transfer),)* _ => None }
             }
 
+            /// Whether points carry an affine velocity field.
+            pub fn is_affine(&self) -> bool { match self { $(Self::$transfer(_) => $transfer::AFFINE),* } }
+
             /// Calls the visitor with the transfer.
             pub fn visit<V: TransferVisitor>(&self, visitor: V) -> V::Output {
                 match self { $(Self::$transfer(transfer) => visitor.visit(*transfer)),* }
