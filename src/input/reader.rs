@@ -28,6 +28,15 @@ impl Reader<'_> {
     pub fn or(&mut self, _key: &str, _unit: Unit, _bound: Bound, _default: f64) -> Option<f64> {
         todo!()
     }
+    /// One of several names.
+    pub fn choice(
+        &mut self,
+        _key: &str,
+        _names: &[&'static str],
+        _default: &'static str,
+    ) -> Option<&'static str> {
+        todo!()
+    }
 }
 /// A struct of parameters that can be read from a table.
 pub trait Parameters: Sized {
