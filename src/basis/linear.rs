@@ -4,7 +4,7 @@ use super::{Axis, Basis};
 use crate::input::{Parameters, Reader};
 
 /// Piecewise linear functions: N = 1 − |x − i| on |x − i| < 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Linear;
 
 impl Parameters for Linear {

@@ -43,6 +43,10 @@ pub trait BasisVisitor {
     fn visit<const N: usize, B: Basis<N>>(self, basis: B) -> Self::Output;
 }
 
+mod spline;
+#[cfg(test)]
+mod tests;
+
 macro_rules! bases {
     ($($name:literal => $module:ident::$basis:ident with $n:literal nodes),* $(,)?) => {
         $(mod $module; pub use $module::$basis;)*
@@ -63,6 +67,9 @@ macro_rules! bases {
                 match name { $($name => $basis::read(reader).map(Self::$basis),)* _ => None }
             }
 
+            /// Every basis with its default parameters, for what has to hold for all of them.
+            pub fn all() -> Vec<Self> { vec![$(Self::$basis($basis::default())),*] }
+
             /// Calls the visitor with the basis and its number of nodes an axis.
             pub fn visit<V: BasisVisitor>(&self, visitor: V) -> V::Output {
                 match self { $(Self::$basis(basis) => visitor.visit::<$n, _>(*basis)),* }
@@ -73,4 +80,7 @@ macro_rules! bases {
 
 bases! {
     "linear" => linear::Linear with 2 nodes,
+    "gimp" => gimp::Gimp with 3 nodes,
+    "quadratic" => quadratic::QuadraticBSpline with 3 nodes,
+    "cubic" => cubic::CubicBSpline with 4 nodes,
 }
