@@ -13,7 +13,7 @@ pub struct Driven {
 
 impl ConditionParameters for Driven {
     fn read(reader: &mut Reader<'_>, place: &Place) -> Option<Self> {
-        let velocity = reader.expressions_or_word("velocity", Unit::VELOCITY, place.dimension, "xyzt", "free")?;
+        let velocity = reader.expressions_or_word("velocity", Unit::VELOCITY, place.dimension, &["x", "y", "z", "t"], "free")?;
         if velocity.iter().all(Option::is_none) {
             reader.problem("velocity", "every component is \"free\": give at least one, or leave the boundary out");
             return None;

@@ -36,6 +36,16 @@ impl Side {
     /// All names, those of the first axis first.
     pub const NAMES: [&'static str; 6] = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"];
 
+    /// Reads the name of a side that must be there.
+    pub fn read(reader: &mut Reader<'_>, key: &str, dimension: usize) -> Option<Self> {
+        let name = reader.choice(key, &Self::NAMES[..2 * dimension], None)?;
+        let number = Self::NAMES.iter().position(|known| *known == name)?;
+        Some(Self {
+            axis: number / 2,
+            upper: number % 2 == 1,
+        })
+    }
+
     /// Its name in a scenario.
     pub fn name(&self) -> &'static str {
         Self::NAMES[2 * self.axis + usize::from(self.upper)]
@@ -91,6 +101,3 @@ conditions! {
     "driven" => driven::Driven,
     "wall" => wall::Wall,
 }
-
-#[cfg(test)]
-mod tests;

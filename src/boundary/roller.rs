@@ -17,7 +17,7 @@ impl ConditionParameters for Roller {
         let normal = match place.side {
             Some(side) => side.axis,
             None => {
-                let name = reader.required_choice("normal", axes)?;
+                let name = reader.choice("normal", axes, None)?;
                 axes.iter().position(|axis| *axis == name)?
             }
         };

@@ -75,6 +75,11 @@ impl Document {
         Reader::new(self, Some(&self.root), String::new(), None)
     }
 
+    /// True if the text itself is not valid: what seems to be missing may only be hidden.
+    pub fn is_broken(&self) -> bool {
+        self.broken
+    }
+
     /// The text of the file.
     pub fn source(&self) -> &str {
         &self.source

@@ -7,6 +7,7 @@ mod compile;
 mod constants;
 mod document;
 mod expression;
+mod lists;
 mod overrides;
 mod problem;
 mod quantity;

@@ -189,33 +189,20 @@ impl<'a> Reader<'a> {
 
     /// Exactly one of these sub-tables, and its name.
     pub fn one_of(&mut self, keys: &[&'static str]) -> Option<(&'static str, Reader<'a>)> {
-        let found: Vec<_> = keys
-            .iter()
-            .filter_map(|key| Some((*key, self.find(key)?)))
-            .collect();
-        match found.as_slice() {
-            [] => {
-                let message = format!(
-                    "expected exactly one of {}, found none; add one",
-                    list(keys, "and")
-                );
-                let names = keys.iter().map(|key| key.to_string()).collect();
-                self.missing.push(Missing {
-                    key: String::new(),
-                    names,
-                    message,
-                });
-                None
-            }
-            [(key, _)] => Some((key, self.optional_table(key)?)),
-            [(first, _), (second, entry), ..] => {
-                let message =
-                    format!("\"{first}\" and \"{second}\" exclude each other; keep one of them");
-                self.document
-                    .add(Some(entry.key_origin.clone()), &self.join(second), message);
-                None
-            }
-        }
+        let key = self.one_key(keys)?;
+        Some((key, self.optional_table(key)?))
+    }
+
+    /// Notes that one of several keys was needed.
+    pub(super) fn missing_one_of(&mut self, keys: &[&'static str]) {
+        self.missing.push(Missing {
+            key: String::new(),
+            names: keys.iter().map(|key| key.to_string()).collect(),
+            message: format!(
+                "expected exactly one of {}, found none; add one",
+                list(keys, "and")
+            ),
+        });
     }
 
     /// A choice that is a bare name, `"flip"`, or a table with one name and its parameters, `{ flip = { ratio = 0.9 } }`.

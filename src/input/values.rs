@@ -185,7 +185,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The values of a list that must have a certain length.
-    fn items(&mut self, key: &str, len: usize) -> Option<&'a [Node]> {
+    pub(super) fn items(&mut self, key: &str, len: usize) -> Option<&'a [Node]> {
         let entry = self.find(key)?;
         let found = match &entry.node.value {
             Value::List(items) if items.len() == len => return Some(items),
@@ -204,7 +204,7 @@ impl<'a> Reader<'a> {
         )
     }
 
-    fn number(&self, node: &Node, path: &str, unit: Unit, bound: Bound) -> Option<f64> {
+    pub(super) fn number(&self, node: &Node, path: &str, unit: Unit, bound: Bound) -> Option<f64> {
         let value = self
             .formula(node, path, unit, &[])?
             .value(&Default::default());
@@ -219,7 +219,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn formula(
+    pub(super) fn formula(
         &self,
         node: &Node,
         path: &str,
@@ -270,7 +270,7 @@ impl<'a> Reader<'a> {
 }
 
 /// All values, or nothing; unlike a plain `collect` it visits them all, so that every problem is recorded.
-fn all<T>(values: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
+pub(super) fn all<T>(values: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
     values.collect::<Vec<_>>().into_iter().collect()
 }
 

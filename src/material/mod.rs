@@ -3,8 +3,21 @@
 //! The stress that laws return and the solver stores is the **Kirchhoff stress** τ = J σ, so that a point's internal force
 //! needs its initial volume only: V σ = V₀ τ. Tension is positive.
 
+mod deformation;
+mod elasticity;
+mod hyperelastic;
+mod points;
+#[cfg(test)]
+mod tests;
+
+pub use deformation::Deformation;
+pub use elasticity::Isotropic;
+pub use hyperelastic::Hyperelastic;
+pub use points::{Increments, MaterialPoints, Present, StressMut};
+
 use crate::input::{Parameters, Reader};
 use crate::math::Matrix;
+use std::fmt::Debug;
 
 /// What the directions that a 1D or 2D scene does not model are doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,9 +34,10 @@ pub enum Plane {
 /// How one point deforms over one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Kinematics<const D: usize> {
-    /// Velocity gradient L = ∂v_i/∂x_j in the modelled directions, 1/s.
+    /// Velocity gradient L = ∂v_i/∂x_j in the modelled directions, 1/s, x as it was at the start of the step: the step maps
+    /// dx to (I + Δt L) dx.
     pub rate: Matrix<D>,
-    /// Stretch rate of the hoop direction (v_r/r), 1/s; 0 unless axisymmetric.
+    /// Stretch rate of the hoop direction, v_r/r at the start of the step, 1/s; 0 unless axisymmetric.
     pub hoop_rate: f64,
     /// Stretch of the hoop direction after the step; 1 unless axisymmetric.
     pub hoop_stretch: f64,
@@ -36,19 +50,38 @@ pub struct Kinematics<const D: usize> {
 pub struct Stress<const D: usize> {
     /// The modelled directions, symmetric.
     pub plane: Matrix<D>,
-    /// The hoop direction; kept from step to step in an axisymmetric scene only.
-    pub hoop: f64,
+    /// Each direction that is not modelled (out of plane, hoop). Kept from step to step in an axisymmetric scene only.
+    pub transverse: f64,
 }
 
-/// A constitutive law for points of a `D`-dimensional scene.
+impl<const D: usize> Stress<D> {
+    /// No stress.
+    pub fn zero() -> Self {
+        Self {
+            plane: Matrix::zeros(),
+            transverse: 0.0,
+        }
+    }
+
+    /// The stress of a point that a law has no answer for; the health check at the end of a step finds it.
+    #[cold]
+    pub(crate) fn undefined() -> Self {
+        Self {
+            plane: Matrix::from_element(f64::NAN),
+            transverse: f64::NAN,
+        }
+    }
+}
+
+/// A constitutive law for points of a `D`-dimensional scene, its plane already chosen.
 pub trait Material<const D: usize>: Clone + Send + Sync + 'static {
     /// What a point remembers from step to step besides its stress: `()`, F, J, hardening …
-    type Memory: Copy + Send + Sync + std::fmt::Debug + 'static;
+    type Memory: Copy + Send + Sync + Debug + 'static;
 
     /// The memory of an undeformed point.
     fn initial_memory(&self) -> Self::Memory;
 
-    /// Carries memory and stress of one point over one step.
+    /// Carries memory and stress of one point over one step. A point that cannot be (J ≤ 0) gets a stress of NaN.
     fn update_stress(
         &self,
         memory: &mut Self::Memory,
@@ -62,15 +95,38 @@ pub trait Material<const D: usize>: Clone + Send + Sync + 'static {
     /// J = current volume / initial volume of the point, out-of-plane stretch included.
     fn volume_ratio(&self, memory: &Self::Memory, hoop_stretch: f64) -> f64;
 
-    /// ρ₀ c² of the fastest elastic wave in the point's present state, Pa: an upper estimate over all directions of the
-    /// acoustic tensor in the current configuration times J.
+    /// ρ₀ c² of the fastest elastic wave in the point's present state, Pa: an upper estimate, over all directions n in the
+    /// modelled space, of the largest eigenvalue of the acoustic tensor Q(n) in the current configuration times J.
+    ///
+    /// Q(n) m = (δτ − τ Lᵀ) n, where δτ is the change of stress that the velocity gradient L = m ⊗ n makes in unit time:
+    /// P = τ F⁻ᵀ, so that δP Fᵀ = δτ − τ Lᵀ. Zero-order terms of an axisymmetric scene (v_r/r) are no part of it.
     fn stiffness(&self, memory: &Self::Memory, stress: &Stress<D>, hoop_stretch: f64) -> f64;
+
+    /// What the numbers that [`Self::memory_values`] gives are called.
+    fn memory_names(&self) -> Vec<String>;
+
+    /// What a point remembers, for people to look at.
+    fn memory_values(&self, memory: &Self::Memory, values: &mut Vec<f64>);
+
+    /// Every bit that a point remembers, for comparing two states exactly.
+    fn memory_bits(&self, memory: &Self::Memory, bits: &mut Vec<u64>);
 }
 
-mod points;
-pub use points::MaterialPoints;
+/// What a scenario calls a law: parameters that become a [`Material`] once dimension and plane are known.
+///
+/// A [`Hyperelastic`] law is one without further ado.
+pub trait Law: Parameters + Clone + Debug + PartialEq {
+    /// The memory of `count` undeformed points of this law. `plane` says nothing in 3D.
+    fn points<const D: usize>(&self, plane: Plane, count: usize) -> Box<dyn MaterialPoints<D>>;
 
-#[allow(unused_macros)]
+    /// Whether stress and energy depend on the present deformation only, so that closed cycles cost nothing.
+    fn is_hyperelastic(&self) -> bool;
+
+    /// One law for each kind of behaviour that the parameters can select, for the tests that every law has to pass.
+    #[cfg(test)]
+    fn samples(elasticity: Isotropic) -> Vec<Self>;
+}
+
 macro_rules! materials {
     ($($name:literal => $module:ident::$law:ident),* $(,)?) => {
         $(mod $module; pub use $module::$law;)*
@@ -91,15 +147,30 @@ macro_rules! materials {
                 match name { $($name => $law::read(reader).map(Self::$law),)* _ => None }
             }
 
-            /// The memory of `count` undeformed points of this law.
+            /// The memory of `count` undeformed points of this law. `plane` says nothing in 3D.
             pub fn points<const D: usize>(&self, plane: Plane, count: usize) -> Box<dyn MaterialPoints<D>> {
-                match self { $(Self::$law(law) => law.clone().points::<D>(plane, count)),* }
+                match self { $(Self::$law(law) => law.points::<D>(plane, count)),* }
+            }
+
+            /// Whether stress and energy depend on the present deformation only, so that closed cycles cost nothing.
+            pub fn is_hyperelastic(&self) -> bool {
+                match self { $(Self::$law(law) => law.is_hyperelastic()),* }
+            }
+
+            /// Every law, in every variant, with these elastic constants.
+            #[cfg(test)]
+            pub(crate) fn samples(elasticity: Isotropic) -> Vec<Self> {
+                let mut samples = Vec::new();
+                $(samples.extend($law::samples(elasticity).into_iter().map(Self::$law));)*
+                samples
             }
         }
     };
 }
 
-// materials! { "neo_hookean" => neo_hookean::NeoHookean, }
-/// Stub.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LawChoice {}
+materials! {
+    "linear_elastic" => linear_elastic::LinearElastic,
+    "neo_hookean" => neo_hookean::NeoHookean,
+    "st_venant_kirchhoff" => st_venant_kirchhoff::StVenantKirchhoff,
+    "hencky" => hencky::Hencky,
+}

@@ -27,12 +27,19 @@ impl PointSet {
     /// Initial volume of a point, m³. In 1D a cross-section of 1 m² is meant, in 2D a thickness of 1 m, and in an axisymmetric
     /// scene the full ring 2π r · area.
     pub fn volume(&self, index: usize) -> f64 {
-        if self.rings { 2.0 * PI * self.positions[index][0] * self.cell } else { self.cell }
+        if self.rings {
+            2.0 * PI * self.positions[index][0] * self.cell
+        } else {
+            self.cell
+        }
     }
 
     /// Area, m², of the face that a point shows to a side of the body.
     pub fn side_area(&self, index: usize, side: Side) -> f64 {
-        let face: f64 = (0..3).filter(|axis| *axis != side.axis).map(|axis| self.spacing[axis]).product();
+        let face: f64 = (0..3)
+            .filter(|axis| *axis != side.axis)
+            .map(|axis| self.spacing[axis])
+            .product();
         if !self.rings {
             return face;
         }
@@ -46,35 +53,56 @@ impl PointSet {
         let chosen: Box<dyn Fn(&[f64; 3]) -> bool> = match on {
             Region::Side(side) => {
                 let (axis, sign) = (side.axis, if side.upper { 1.0 } else { -1.0 });
-                let outermost = (self.positions.iter().map(|at| sign * at[axis])).fold(f64::NEG_INFINITY, f64::max);
+                let outermost = (self.positions.iter().map(|at| sign * at[axis]))
+                    .fold(f64::NEG_INFINITY, f64::max);
                 let depth = 0.5 * self.spacing[axis];
                 Box::new(move |at| sign * at[axis] > outermost - depth)
             }
-            Region::Box { min, max } => {
-                Box::new(move |at| min.iter().zip(max).zip(at).all(|((min, max), x)| min <= x && x <= max))
-            }
+            Region::Box { min, max } => Box::new(move |at| {
+                min.iter()
+                    .zip(max)
+                    .zip(at)
+                    .all(|((min, max), x)| min <= x && x <= max)
+            }),
         };
-        (0..self.positions.len()).filter(|index| chosen(&self.positions[*index])).collect()
+        (0..self.positions.len())
+            .filter(|index| chosen(&self.positions[*index]))
+            .collect()
     }
 
     /// The number of the point closest to a place, the lowest among equals; `None` if there is no point.
     pub fn nearest(&self, place: &[f64]) -> Option<usize> {
-        let square = |at: &[f64; 3]| -> f64 { place.iter().zip(at).map(|(a, b)| (a - b) * (a - b)).sum() };
+        let square =
+            |at: &[f64; 3]| -> f64 { place.iter().zip(at).map(|(a, b)| (a - b) * (a - b)).sum() };
         let distances = self.positions.iter().map(square).enumerate();
-        distances.reduce(|best, next| if next.1 < best.1 { next } else { best }).map(|(index, _)| index)
+        distances
+            .reduce(|best, next| if next.1 < best.1 { next } else { best })
+            .map(|(index, _)| index)
     }
 }
 
 /// The points of one body of a scene.
 pub fn body_points(scenario: &Scenario, body: usize) -> PointSet {
     let body = &scenario.bodies[body];
-    Filling::new(&body.shape, &scenario.grid, &body.particles_per_cell, scenario.plane).points()
+    Filling::new(
+        &body.shape,
+        &scenario.grid,
+        &body.particles_per_cell,
+        scenario.plane,
+    )
+    .points()
 }
 
 /// How many points one body of a scene has.
 pub fn body_point_count(scenario: &Scenario, body: usize) -> u64 {
     let body = &scenario.bodies[body];
-    Filling::new(&body.shape, &scenario.grid, &body.particles_per_cell, scenario.plane).count()
+    Filling::new(
+        &body.shape,
+        &scenario.grid,
+        &body.particles_per_cell,
+        scenario.plane,
+    )
+    .count()
 }
 
 /// A shape and the lattice that fills it: what can be said before any memory is taken.
@@ -106,7 +134,11 @@ impl<'a> Filling<'a> {
         };
         let bounds = shape.bounds();
         for axis in 0..dimension {
-            let (min, max, per_cell) = (bounds.min[axis], bounds.max[axis], f64::from(per_cell[axis]));
+            let (min, max, per_cell) = (
+                bounds.min[axis],
+                bounds.max[axis],
+                f64::from(per_cell[axis]),
+            );
             if let Shape::Cuboid(_) = shape {
                 let count = ((max - min) * per_cell / grid.cell_size).round().max(1.0);
                 filling.origin[axis] = min;
@@ -135,7 +167,10 @@ impl<'a> Filling<'a> {
     pub fn estimate(&self) -> f64 {
         match self.shape {
             Shape::Cuboid(_) => self.candidates(),
-            shape => shape.measure().map_or(self.candidates(), |size| size / self.cell()).min(self.candidates()),
+            shape => shape
+                .measure()
+                .map_or(self.candidates(), |size| size / self.cell())
+                .min(self.candidates()),
         }
     }
 
@@ -150,11 +185,28 @@ impl<'a> Filling<'a> {
         for axis in 0..self.dimension {
             let inside = |k: &u64| (min[axis]..=max[axis]).contains(&self.coordinate(axis, *k));
             let range = self.first[axis]..self.first[axis] + self.count[axis];
-            let Some(start) = range.clone().find(inside) else { return false };
+            let Some(start) = range.clone().find(inside) else {
+                return false;
+            };
             first[axis] = start;
             count[axis] = (start..range.end).take_while(inside).count() as u64;
         }
         self.inside_count(first, count) > 0
+    }
+
+    /// The first point, in order, for which `wanted` holds.
+    pub fn find(&self, wanted: impl Fn(&[f64; 3]) -> bool + Sync) -> Option<[f64; 3]> {
+        (self.first[0]..self.first[0] + self.count[0])
+            .into_par_iter()
+            .find_map_first(|x| {
+                let mut found = None;
+                self.slice(x, self.first, self.count, |at| {
+                    if found.is_none() && wanted(&at) {
+                        found = Some(at);
+                    }
+                });
+                found
+            })
     }
 
     /// The points, in lexicographic order of x, y, z.
@@ -164,8 +216,17 @@ impl<'a> Filling<'a> {
         for x in self.first[0]..self.first[0] + self.count[0] {
             self.slice(x, self.first, self.count, |at| positions.push(at));
         }
-        let mut points = PointSet { positions, spacing: self.spacing, cell: self.cell(), rings: self.rings };
-        let exact = if self.rings { self.shape.revolved() } else { self.shape.measure() };
+        let mut points = PointSet {
+            positions,
+            spacing: self.spacing,
+            cell: self.cell(),
+            rings: self.rings,
+        };
+        let exact = if self.rings {
+            self.shape.revolved()
+        } else {
+            self.shape.measure()
+        };
         if let Some(exact) = exact {
             let sum: crate::math::Sum = (0..total).map(|index| points.volume(index)).collect();
             if sum.value() > 0.0 {
@@ -217,6 +278,3 @@ impl<'a> Filling<'a> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

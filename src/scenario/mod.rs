@@ -3,7 +3,14 @@
 //! [`Scenario`] holds plain checked values in SI units: lists have the length that the dimension asks for, names are resolved
 //! to numbers and choices. It knows no file, no solver and no grid storage.
 
+mod check;
+mod fill;
+mod load;
 pub mod shape;
+
+pub use crate::boundary::Side;
+pub use fill::{Filling, PointSet, body_point_count, body_points};
+pub use load::{InputError, Loaded, load, parse};
 
 use crate::basis::BasisChoice;
 use crate::boundary::ConditionChoice;
@@ -116,21 +123,13 @@ pub struct BodySpec {
     pub velocity: Vec<Expression>,
 }
 
-/// A side of a box: an axis (0, 1, 2) and which end of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Side {
-    /// 0, 1 or 2 for x, y or z.
-    pub axis: usize,
-    /// True for `_max`, false for `_min`.
-    pub upper: bool,
-}
-
 /// Where a condition or a load acts.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
     /// Boundaries: the nodes on this side of the grid. Loads: the outermost layer of the body's points on this side.
     Side(Side),
-    /// Nodes or points (in their initial position) inside this closed box, m; infinite where the file leaves a bound open.
+    /// Nodes or points (in their initial position) inside this closed box, m; infinite where the file leaves a bound open, and
+    /// a billionth of a cell larger than the file says, so that round-off does not decide what lies on its surface.
     Box {
         /// Lower corner.
         min: Vec<f64>,

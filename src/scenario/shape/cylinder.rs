@@ -28,7 +28,6 @@ impl Geometry for Cylinder {
         let mut reader = parent.table(key)?;
         if dimension != 3 {
             let other = if dimension == 2 { "a ball or a box" } else { "a box" };
-            reader.ignore();
             reader.problem_here(format!("a cylinder needs dimension = 3, found {dimension}: use {other}"));
             return None;
         }

@@ -16,10 +16,15 @@ impl Geometry for Difference {
     fn read(parent: &mut Reader<'_>, key: &'static str, dimension: usize) -> Option<Self> {
         let mut reader = parent.table(key)?;
         let of = reader.table("of").and_then(|mut table| Shape::read(&mut table, dimension));
-        let found = reader.each_table("minus", |table| Shape::read(table, dimension))?;
-        let count = found.len();
-        let minus: Vec<Shape> = found.into_iter().flatten().collect();
-        (minus.len() == count).then_some(Self { of: Box::new(of?), minus })
+        let given = reader.has("minus");
+        if !given {
+            reader.problem_here("a difference needs minus = [shapes that are cut away]");
+        }
+        let mut tables = reader.tables("minus");
+        let count = tables.len();
+        let minus: Vec<Shape> =
+            tables.iter_mut().filter_map(|table| Shape::read(table, dimension)).collect();
+        (given && minus.len() == count).then_some(Self { of: Box::new(of?), minus })
     }
 
     fn contains(&self, at: &[f64]) -> bool {

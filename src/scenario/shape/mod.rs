@@ -48,7 +48,7 @@ macro_rules! shapes {
 
             /// Reads a table that holds exactly one shape, under its name.
             pub fn read(reader: &mut Reader<'_>, dimension: usize) -> Option<Self> {
-                match reader.one_of(Self::NAMES)? {
+                match reader.one_key(Self::NAMES)? {
                     $($name => $shape::read(reader, $name, dimension).map(Self::$shape),)*
                     _ => None,
                 }
@@ -85,6 +85,3 @@ shapes! {
     "union" => union::Union,
     "difference" => difference::Difference,
 }
-
-#[cfg(test)]
-mod tests;

@@ -23,10 +23,13 @@ impl Polygon {
         self.sides().map(|(a, b)| 0.5 * (a[0] * b[1] - b[0] * a[1])).sum()
     }
 
-    /// Whether two sides that are not neighbours meet.
+    /// Whether two sides cross; a polygon with too many sides to look at counts as if.
     fn crosses_itself(&self) -> bool {
         let sides: Vec<_> = self.sides().collect();
         let count = sides.len();
+        if count > 4096 {
+            return true;
+        }
         let turn = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
             (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         };
@@ -43,7 +46,6 @@ impl Geometry for Polygon {
     fn read(parent: &mut Reader<'_>, key: &'static str, dimension: usize) -> Option<Self> {
         let mut reader = parent.table(key)?;
         if dimension != 2 {
-            reader.ignore();
             reader.problem_here(format!("a polygon needs dimension = 2, found {dimension}: use a box"));
             return None;
         }

@@ -12,12 +12,13 @@ pub struct Union {
 
 impl Geometry for Union {
     fn read(parent: &mut Reader<'_>, key: &'static str, dimension: usize) -> Option<Self> {
-        let found = parent.each_table(key, |table| Shape::read(table, dimension))?;
-        let count = found.len();
-        let shapes: Vec<Shape> = found.into_iter().flatten().collect();
-        if count == 0 {
+        if parent.list_length(key) == Some(0) {
             parent.problem(key, "a union needs at least one shape");
         }
+        let mut tables = parent.tables(key);
+        let count = tables.len();
+        let shapes: Vec<Shape> =
+            tables.iter_mut().filter_map(|table| Shape::read(table, dimension)).collect();
         (count > 0 && shapes.len() == count).then_some(Self { shapes })
     }
 

@@ -1,0 +1,90 @@
+//! Hencky's solid: Hooke's law between logarithmic strain and Kirchhoff stress.
+
+use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
+use crate::input::{Parameters, Reader};
+use crate::math::{Matrix, from_eigen, symmetric_eigen};
+
+/// W = μ |ln V|² + λ/2 (ln J)² and so τ = 2μ ln V + λ ln J I, with V² = b.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hencky {
+    /// Elastic constants.
+    pub elasticity: Isotropic,
+}
+
+impl Parameters for Hencky {
+    fn read(reader: &mut Reader<'_>) -> Option<Self> {
+        Isotropic::read(reader).map(|elasticity| Self { elasticity })
+    }
+}
+
+/// Principal logarithmic strains in the modelled directions with their directions, the transverse one, and ln J.
+#[inline(always)]
+fn logarithmic_strain<const D: usize>(
+    deformation: &Deformation<D>,
+) -> ([f64; D], Matrix<D>, f64, f64) {
+    let (finger_less_one, directions) = symmetric_eigen(&deformation.finger_less_one());
+    let strains = finger_less_one.map(|x| 0.5 * x.ln_1p());
+    let transverse = deformation.transverse.ln_1p();
+    let volume = strains.iter().sum::<f64>() + Deformation::<D>::TRANSVERSE * transverse;
+    (strains, directions, transverse, volume)
+}
+
+impl Hyperelastic for Hencky {
+    fn elasticity(&self) -> Isotropic {
+        self.elasticity
+    }
+
+    #[inline(always)]
+    fn stress<const D: usize>(&self, deformation: &Deformation<D>) -> Stress<D> {
+        let (lambda, mu) = self.elasticity.lame();
+        let (strains, directions, transverse, volume) = logarithmic_strain(deformation);
+        let principal = strains.map(|strain| 2.0 * mu * strain + lambda * volume);
+        Stress {
+            plane: from_eigen(&principal, &directions),
+            transverse: 2.0 * mu * transverse + lambda * volume,
+        }
+    }
+
+    #[inline]
+    fn energy<const D: usize>(&self, deformation: &Deformation<D>) -> f64 {
+        let (lambda, mu) = self.elasticity.lame();
+        let (strains, _, transverse, volume) = logarithmic_strain(deformation);
+        let squares = strains.iter().map(|strain| strain * strain).sum::<f64>()
+            + Deformation::<D>::TRANSVERSE * transverse * transverse;
+        mu * squares + 0.5 * lambda * volume * volume
+    }
+
+    /// In principal directions, and with s_ik = (τ_i − τ_k)/(b_i − b_k) as the change of the directions of τ demands,
+    ///
+    /// Q_ii = (λ + 2μ − τ_i) n_i² + Σ_{k≠i} s_ik b_k n_k² and Q_ik = (λ + s_ik b_k − τ_k) n_i n_k.
+    ///
+    /// Taking (λ + μ) n ⊗ n out, whose largest eigenvalue is λ + μ, leaves m·Q m ≤ Σ_i m_i² (r n_i² + s (1 − n_i²)) ≤
+    /// max(r, s), where r is Gershgorin's bound of the matrix with the diagonal μ − τ_i and the rest s_ik b_k − τ_k − μ, and
+    /// s is the largest s_ik b_k. Free transverse directions replace λ by λ*, since τ is linear in ln V.
+    #[inline]
+    fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, plane: Plane) -> f64 {
+        let (lambda, mu) = self.elasticity.lame();
+        let (strains, _, _, volume) = logarithmic_strain(deformation);
+        let stress = |i: usize| 2.0 * mu * strains[i] + lambda * volume;
+        let mut bound = f64::NEG_INFINITY;
+        for i in 0..D {
+            let mut row = mu - stress(i);
+            for k in 0..D {
+                if k != i {
+                    // with ln b_i − ln b_k = x: s_ik b_k = μ x / (eˣ − 1)
+                    let x = 2.0 * (strains[i] - strains[k]);
+                    let turning = if x == 0.0 { mu } else { mu * x / x.exp_m1() };
+                    bound = bound.max(turning);
+                    row += (turning - stress(k) - mu).abs();
+                }
+            }
+            bound = bound.max(row);
+        }
+        self.elasticity.plane_lambda::<D>(plane) + mu + bound
+    }
+
+    #[cfg(test)]
+    fn samples(elasticity: Isotropic) -> Vec<Self> {
+        vec![Self { elasticity }]
+    }
+}

@@ -1,0 +1,220 @@
+//! Hooke's law in rate form, the law of the classical Material Point Method.
+//!
+//! Right at small strain and any rotation. At large strain the stress oscillates in shear and closed cycles are not free: use
+//! a hyperelastic law there.
+
+use super::points::Points;
+use super::{Isotropic, Kinematics, Law, Material, MaterialPoints, Plane, Stress};
+use crate::input::{Parameters, Reader};
+use crate::math::{
+    Matrix, determinant_less_one, eigenvalue_spread_bound, inverse, largest_eigenvalue_bound,
+};
+
+/// Which stress the rate is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rate {
+    /// `cauchy`: the true stress σ.
+    Cauchy,
+    /// `kirchhoff`: τ = J σ. With it the volume of a point drops out of its internal force, as in the classical algorithm,
+    /// which never updates it.
+    Kirchhoff,
+}
+
+/// Isotropic hypoelastic law with the Jaumann rate: σ̇ = λ tr D I + 2μ D + W σ − σ W, or the same for τ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearElastic {
+    /// Elastic constants.
+    pub elasticity: Isotropic,
+    /// Which stress the rate is of.
+    pub rate: Rate,
+}
+
+impl Parameters for LinearElastic {
+    fn read(reader: &mut Reader<'_>) -> Option<Self> {
+        let elasticity = Isotropic::read(reader);
+        let rate = match reader.choice("rate", &["cauchy", "kirchhoff"], Some("cauchy")) {
+            Some("kirchhoff") => Some(Rate::Kirchhoff),
+            Some(_) => Some(Rate::Cauchy),
+            None => None,
+        };
+        Some(Self { elasticity: elasticity?, rate: rate? })
+    }
+}
+
+impl Law for LinearElastic {
+    fn points<const D: usize>(&self, plane: Plane, count: usize) -> Box<dyn MaterialPoints<D>> {
+        let (lambda, mu) = self.elasticity.lame();
+        let material = Hypoelastic {
+            elasticity: self.elasticity,
+            rate: self.rate,
+            axisymmetric: plane == Plane::Axisymmetric,
+            plane_lambda: self.elasticity.plane_lambda::<D>(plane),
+            mu,
+            transverse_ratio: self.elasticity.transverse_ratio::<D>(plane),
+            held_share: match plane {
+                Plane::Strain => lambda / (D as f64 * lambda + 2.0 * mu),
+                _ => 0.0,
+            },
+        };
+        Box::new(Points::new(material, count))
+    }
+
+    fn is_hyperelastic(&self) -> bool {
+        false
+    }
+
+    #[cfg(test)]
+    fn samples(elasticity: Isotropic) -> Vec<Self> {
+        [Rate::Cauchy, Rate::Kirchhoff]
+            .map(|rate| Self { elasticity, rate })
+            .to_vec()
+    }
+}
+
+/// [`LinearElastic`] in a given dimension and plane. Remembers J − 1.
+#[derive(Clone)]
+struct Hypoelastic {
+    elasticity: Isotropic,
+    rate: Rate,
+    axisymmetric: bool,
+    /// λ, or λ* where the transverse directions are free, Pa.
+    plane_lambda: f64,
+    /// Pa.
+    mu: f64,
+    /// κ: a free transverse direction strains at −κ tr D.
+    transverse_ratio: f64,
+    /// A held transverse direction carries this share of the trace of the modelled stresses: its rate is λ tr D, theirs add
+    /// up to (Dλ + 2μ) tr D, and rotation changes neither.
+    held_share: f64,
+}
+
+/// The strain and spin of a step, at its middle: the symmetric and the skew part of G = Δt L (I + Δt L/2)⁻¹.
+///
+/// L refers to the start of the step, which maps dx to (I + Δt L) dx; at half time dx has become (I + Δt L/2) dx, so G is the
+/// velocity gradient there. A step that rotates without strain, I + Δt L = R, has G = 2 (R − I)(R + I)⁻¹, which is skew: no
+/// strain comes out, where the symmetric part of L gives the second-order cos θ − 1.
+#[inline(always)]
+fn midpoint<const D: usize>(l: &Matrix<D>) -> Matrix<D> {
+    l * inverse(&(Matrix::identity() + l * 0.5))
+}
+
+impl<const D: usize> Material<D> for Hypoelastic {
+    type Memory = f64;
+
+    fn initial_memory(&self) -> f64 {
+        0.0
+    }
+
+    /// Half of the elastic increment, the rotation R = (I − W/2)⁻¹ (I + W/2), the other half: second order in Δt. R is
+    /// orthogonal, and the rotation of a rigid step exactly.
+    #[inline(always)]
+    fn update_stress(&self, memory: &mut f64, stress: &mut Stress<D>, step: &Kinematics<D>) {
+        let l = step.rate * step.dt;
+        let g = midpoint(&l);
+        let strain = (g + g.transpose()) * 0.5;
+        let hoop = step.hoop_rate * step.dt;
+        let hoop_strain = hoop / (1.0 + 0.5 * hoop);
+
+        // a transverse strain of −κ tr D multiplies lengths by 1 + side
+        let side_strain = -self.transverse_ratio * strain.trace();
+        let side = side_strain / (1.0 - 0.5 * side_strain) + hoop;
+        let sides = match D {
+            1 => side * (2.0 + side),
+            _ => side,
+        };
+        let plane = determinant_less_one(&l);
+        let change = plane + sides + plane * sides;
+        let old_ratio = 1.0 + *memory;
+        *memory += change * old_ratio;
+        let ratio = 1.0 + *memory;
+        let crushed = !(ratio > 0.0) || side <= -1.0;
+        if crushed {
+            *stress = Stress::undefined();
+            return;
+        }
+
+        let pressure = self.plane_lambda * (strain.trace() + hoop_strain);
+        let half = Matrix::identity() * (0.5 * pressure) + strain * self.mu;
+        let (before, after) = match self.rate {
+            Rate::Cauchy => (1.0 / old_ratio, ratio),
+            Rate::Kirchhoff => (1.0, 1.0),
+        };
+        let mut rotated = stress.plane * before + half;
+        if D > 1 {
+            let half_spin = (g - g.transpose()) * 0.25;
+            let rotation =
+                inverse(&(Matrix::identity() - half_spin)) * (Matrix::identity() + half_spin);
+            rotated = rotation * rotated * rotation.transpose();
+            rotated = (rotated + rotated.transpose()) * 0.5;
+        }
+        stress.plane = (rotated + half) * after;
+        if self.axisymmetric {
+            let increment = pressure + 2.0 * self.mu * hoop_strain;
+            stress.transverse = (stress.transverse * before + increment) * after;
+        }
+    }
+
+    /// J/2 σ : C⁻¹ : σ = τ : C⁻¹ : τ / (2J) or τ : C⁻¹ : τ / 2, with all three normal stresses;
+    /// C⁻¹ : τ = ((1 + ν) τ − ν tr τ I) / E.
+    #[inline]
+    fn energy(&self, memory: &f64, stress: &Stress<D>, _: f64) -> f64 {
+        let trace = stress.plane.trace();
+        let sides = 3.0 - D as f64;
+        let side = if self.axisymmetric {
+            stress.transverse
+        } else {
+            self.held_share * trace
+        };
+        let squares = stress.plane.norm_squared() + sides * side * side;
+        let trace = trace + sides * side;
+        let nu = self.elasticity.poissons_ratio;
+        let energy = ((1.0 + nu) * squares - nu * trace * trace)
+            / (2.0 * self.elasticity.youngs_modulus);
+        match self.rate {
+            Rate::Cauchy => energy / (1.0 + memory),
+            Rate::Kirchhoff => energy,
+        }
+    }
+
+    #[inline]
+    fn volume_ratio(&self, memory: &f64, _: f64) -> f64 {
+        1.0 + memory
+    }
+
+    /// With M = λ* + 2μ, the spread s of the principal τ, and p the largest principal pressure −τ (or 0):
+    ///
+    /// - the Jaumann terms ½ [(n·τ n) I − n ⊗ τ n − τ + τ n ⊗ n] see the deviator only: at most ½ s, and their skew part ¼ s;
+    /// - for the Kirchhoff rate −τ Lᵀ n = −τ n (m·n) remains: at most p + ¼ s;
+    /// - for the Cauchy rate τ̇ = J σ̇ + τ tr L cancels that but for the share κ per free transverse direction.
+    ///
+    /// In 1D these are exact: J M − 2κ τ and M − τ.
+    #[inline]
+    fn stiffness(&self, memory: &f64, stress: &Stress<D>, _: f64) -> f64 {
+        let modulus = self.plane_lambda + 2.0 * self.mu;
+        let (modulus, share) = match self.rate {
+            Rate::Cauchy => (
+                modulus * (1.0 + memory),
+                self.transverse_ratio * (3.0 - D as f64),
+            ),
+            Rate::Kirchhoff => (modulus, 1.0),
+        };
+        if D == 1 {
+            return modulus - share * stress.plane[(0, 0)];
+        }
+        let spread = eigenvalue_spread_bound(&stress.plane);
+        let pressure = largest_eigenvalue_bound(&-stress.plane).max(0.0);
+        modulus + 0.75 * spread + share * (pressure + 0.25 * spread)
+    }
+
+    fn memory_names(&self) -> Vec<String> {
+        vec!["volume_ratio".to_owned()]
+    }
+
+    fn memory_values(&self, memory: &f64, values: &mut Vec<f64>) {
+        values.push(1.0 + memory);
+    }
+
+    fn memory_bits(&self, memory: &f64, bits: &mut Vec<u64>) {
+        bits.push(memory.to_bits());
+    }
+}

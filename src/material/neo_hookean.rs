@@ -1,0 +1,70 @@
+//! Compressible neo-Hookean solid: rubber, and any elastic solid at moderate strain.
+
+use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
+use crate::input::{Parameters, Reader};
+use crate::math::{Matrix, excess_over_logarithm, largest_eigenvalue_bound};
+
+/// W = μ/2 (tr b − 3) − μ ln J + λ/2 (ln J)² and so τ = μ (b − I) + λ ln J I.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NeoHookean {
+    /// Elastic constants at small strain.
+    pub elasticity: Isotropic,
+}
+
+impl Parameters for NeoHookean {
+    fn read(reader: &mut Reader<'_>) -> Option<Self> {
+        Isotropic::read(reader).map(|elasticity| Self { elasticity })
+    }
+}
+
+impl Hyperelastic for NeoHookean {
+    fn elasticity(&self) -> Isotropic {
+        self.elasticity
+    }
+
+    #[inline(always)]
+    fn stress<const D: usize>(&self, deformation: &Deformation<D>) -> Stress<D> {
+        let (lambda, mu) = self.elasticity.lame();
+        let pressure = lambda * deformation.volume_change().ln_1p();
+        Stress {
+            plane: deformation.finger_less_one() * mu + Matrix::identity() * pressure,
+            transverse: mu * deformation.transverse_finger_less_one() + pressure,
+        }
+    }
+
+    /// tr b − 3 = 2 tr H + |H|² (and the same of the transverse stretches), so that W holds tr H − ln J. That is
+    /// (J − 1 − ln J) − (J − 1 − tr H), both of second order: the terms of first order are cancelled on paper.
+    #[inline]
+    fn energy<const D: usize>(&self, deformation: &Deformation<D>) -> f64 {
+        let (lambda, mu) = self.elasticity.lame();
+        let change = deformation.volume_change();
+        let log_j = change.ln_1p();
+        let squares = deformation.displacement_gradient.norm_squared()
+            + Deformation::<D>::TRANSVERSE * deformation.transverse * deformation.transverse;
+        let shape = excess_over_logarithm(change) - deformation.volume_change_beyond_trace();
+        mu * (shape + 0.5 * squares) + 0.5 * lambda * log_j * log_j
+    }
+
+    /// δτ = μ (L b + b Lᵀ) + λ tr L I with L = m ⊗ n gives Q = μ (n·b n) I + (μ + λ (1 − ln J)) n ⊗ n.
+    ///
+    /// Where the transverse stretches t are free, 2μ t² ε_t + λ (tr L + n ε_t) = 0 reduces the λ that multiplies tr L to
+    /// λ · 2μt² / (2μt² + nλ), n being the number of free directions.
+    #[inline]
+    fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, plane: Plane) -> f64 {
+        let (lambda, mu) = self.elasticity.lame();
+        let mut bulk = lambda;
+        if plane == Plane::Stress {
+            let side = 2.0 * mu * (1.0 + deformation.transverse_finger_less_one());
+            bulk *= side / (side + Deformation::<D>::TRANSVERSE * lambda);
+        }
+        let largest = 1.0 + largest_eigenvalue_bound(&deformation.finger_less_one());
+        let along = mu + bulk - lambda * deformation.volume_change().ln_1p();
+        // across n the second term is missing, and in 1D there is no across
+        mu * largest + if D == 1 { along } else { along.max(0.0) }
+    }
+
+    #[cfg(test)]
+    fn samples(elasticity: Isotropic) -> Vec<Self> {
+        vec![Self { elasticity }]
+    }
+}

@@ -1,0 +1,259 @@
+//! From a document to a scenario, with every problem noted on the way.
+//!
+//! Each part is read even if an earlier one was wrong, as long as what it says still has a meaning.
+
+mod bodies;
+mod boundaries;
+mod loads;
+mod materials;
+mod numerics;
+mod records;
+mod size;
+
+use super::{BodySpec, GridSpec, Region, Scenario};
+use crate::boundary::Side;
+use crate::input::{Document, Reader, Unit, nearest};
+use crate::material::Plane;
+
+/// Axes by number.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A length that matters to nobody, in cells.
+const TINY: f64 = 1e-9;
+
+/// What the meaning of most other parts depends on.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    dimension: usize,
+    plane: Plane,
+}
+
+/// What was found under a name: the name can be referred to even if the rest is wrong.
+struct Named<T> {
+    name: String,
+    found: Option<T>,
+}
+
+/// A body, and how many points it has if that could be counted.
+#[derive(Clone)]
+struct CountedBody {
+    body: BodySpec,
+    points: Option<u64>,
+}
+
+/// Reads a whole document. Problems go to the document.
+pub(super) fn scenario(
+    document: &Document,
+    name: &str,
+    warnings: &mut Vec<String>,
+) -> Option<Scenario> {
+    let mut root = document.root();
+    if root.keys().is_empty() {
+        if !document.is_broken() {
+            root.problem_here("the file is empty; `mpm new` writes one to start from");
+        }
+        return None;
+    }
+    let title = if root.has("title") {
+        root.optional_text("title")
+    } else {
+        Some(name.into())
+    };
+    let frame = frame(&mut root, document)?;
+    let time = numerics::time(&mut root);
+    let (grid, grid_reader) = numerics::grid(&mut root, frame);
+    let method = numerics::method(&mut root);
+    let materials = materials::materials(&mut root, document);
+    let bodies = bodies::bodies(&mut root, document, frame, grid.as_ref(), &materials);
+    if let (Some(grid), Some(mut reader)) = (&grid, grid_reader) {
+        size::check(&mut reader, &bodies, grid, frame);
+        reader.finish();
+    }
+    let basis = method.as_ref().map(|method| method.basis);
+    let boundaries = boundaries::boundaries(&mut root, frame, grid.as_ref(), basis);
+    boundaries::check_axis(
+        &mut root,
+        frame,
+        grid.as_ref(),
+        &bodies,
+        boundaries.as_deref(),
+    );
+    let gravity = loads::gravity(&mut root, frame);
+    let damping = loads::damping(&mut root);
+    let loads = loads::loads(&mut root, frame, grid.as_ref(), &bodies);
+    let output = records::output(&mut root, time.map(|time| time.0));
+    let probes = records::probes(&mut root, frame, grid.as_ref(), &bodies, warnings);
+    root.finish();
+    materials::warn(frame, &materials, &bodies, warnings);
+
+    let (end, step) = time?;
+    let materials = materials
+        .into_iter()
+        .map(|named| named.found)
+        .collect::<Option<_>>()?;
+    let bodies = bodies
+        .into_iter()
+        .map(|named| named.found.map(|counted| counted.body));
+    Some(Scenario {
+        title: title?,
+        dimension: frame.dimension,
+        plane: frame.plane,
+        end,
+        step,
+        grid: grid?,
+        method: method?,
+        materials,
+        bodies: bodies.collect::<Option<_>>()?,
+        boundaries: boundaries?,
+        loads: loads?,
+        gravity: gravity?,
+        damping: damping?,
+        output: output?,
+        probes: probes?,
+    })
+}
+
+fn frame(root: &mut Reader<'_>, document: &Document) -> Option<Frame> {
+    let read = root
+        .integer("dimension", 1, 3)
+        .map(|dimension| dimension as usize);
+    if let Some(dimension) = read {
+        document.set_dimension(dimension);
+    }
+    // Without it the rest can still be read as the grid suggests.
+    let dimension = read.or_else(|| {
+        let mut grid = root.optional_table("grid")?;
+        grid.keys().iter().for_each(|key| grid.used(key));
+        grid.list_length("min")
+            .filter(|length| (1..=3).contains(length))
+    })?;
+    let names: &[&'static str] = match dimension {
+        1 => &["strain", "stress"],
+        2 => &["strain", "stress", "axisymmetric"],
+        _ => &[],
+    };
+    let plane = if names.is_empty() {
+        if root.has("plane") {
+            root.problem("plane", "nothing is left out in 3D; remove this key");
+        }
+        Plane::Strain
+    } else {
+        match root.choice("plane", names, Some("strain")) {
+            Some("stress") => Plane::Stress,
+            Some("axisymmetric") => Plane::Axisymmetric,
+            _ => Plane::Strain,
+        }
+    };
+    Some(Frame { dimension, plane })
+}
+
+/// The name of one thing of a kind, which has to be new, and fit to be part of a file's name.
+fn name(
+    reader: &mut Reader<'_>,
+    kind: &str,
+    taken: &[String],
+    default: Option<String>,
+) -> Option<String> {
+    let name = if default.is_some() && !reader.has("name") {
+        default
+    } else {
+        reader.text("name")
+    }?;
+    let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    let problem = if name.is_empty() || name.len() > 64 || !name.chars().all(fits) {
+        "a name is part of a file's name: use up to 64 letters, digits, \"-\" and \"_\"".to_string()
+    } else if taken.contains(&name) {
+        format!("another {kind} is called \"{name}\" already: choose another name")
+    } else {
+        return Some(name);
+    };
+    reader.problem("name", problem);
+    Some(name)
+}
+
+/// The number of the thing of a kind that `key` names.
+fn named<'n>(
+    reader: &mut Reader<'_>,
+    key: &str,
+    kind: &str,
+    names: impl Iterator<Item = &'n str> + Clone,
+) -> Option<usize> {
+    let wanted = reader.text(key)?;
+    let found = names.clone().position(|name| name == wanted);
+    if found.is_none() {
+        let message = match nearest(&wanted, names.clone()) {
+            Some(near) => format!("there is no {kind} \"{wanted}\"; did you mean \"{near}\"?"),
+            None => {
+                let known: Vec<_> = names.map(|name| format!("\"{name}\"")).collect();
+                let known = if known.is_empty() {
+                    "none".into()
+                } else {
+                    known.join(", ")
+                };
+                format!("there is no {kind} \"{wanted}\"; known: {known}")
+            }
+        };
+        reader.problem(key, message);
+    }
+    found
+}
+
+/// Where something acts: `on.side` or `on.box`.
+fn region(reader: &mut Reader<'_>, frame: Frame, grid: Option<&GridSpec>) -> Option<Region> {
+    let mut on = reader.table("on")?;
+    let region = match on.one_key(&["side", "box"])? {
+        "side" => Region::Side(Side::read(&mut on, "side", frame.dimension)?),
+        _ => {
+            let mut table = on.table("box")?;
+            let (min, max) = corners(&mut table, frame.dimension)?;
+            table.finish();
+            let slack = TINY * grid.map_or(0.0, |grid| grid.cell_size);
+            Region::Box {
+                min: min.iter().map(|x| x - slack).collect(),
+                max: max.iter().map(|x| x + slack).collect(),
+            }
+        }
+    };
+    on.finish();
+    Some(region)
+}
+
+/// The corners of a box that may be open on one end.
+fn corners(table: &mut Reader<'_>, dimension: usize) -> Option<(Vec<f64>, Vec<f64>)> {
+    let (has_min, has_max) = (table.has("min"), table.has("max"));
+    if !has_min && !has_max && table.keys().is_empty() {
+        table.problem_here(
+            "give min, max or both; without min the box is open towards lower x, y and z",
+        );
+        return None;
+    }
+    let min = table.vector_or(
+        "min",
+        Unit::LENGTH,
+        dimension,
+        &vec![f64::NEG_INFINITY; dimension],
+    );
+    let max = table.vector_or(
+        "max",
+        Unit::LENGTH,
+        dimension,
+        &vec![f64::INFINITY; dimension],
+    );
+    let (min, max) = (min?, max?);
+    for axis in 0..dimension {
+        if min[axis] > max[axis] {
+            let (axis, min, max) = (AXES[axis], min[axis], max[axis]);
+            let message =
+                format!("along {axis} the box ends at {max} m, below its start {min} m: swap them");
+            table.problem("max", message);
+            return None;
+        }
+    }
+    Some((min, max))
+}
+
+/// A place, for people.
+fn place(at: &[f64]) -> String {
+    let numbers: Vec<_> = at.iter().map(|x| format!("{x}")).collect();
+    format!("({}) m", numbers.join(", "))
+}
