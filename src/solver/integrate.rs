@@ -74,10 +74,10 @@ const NO_MASS: f64 = 1e-290;
 impl<const D: usize> GridStep<'_, D> {
     /// Turns momenta and forces into velocities at the end of the step and their changes; `sums` gets one entry a row.
     pub fn integrate(&mut self, sums: &mut [GridSums], parallel: bool) {
+        let split = !self.change.is_empty();
         let main = Disjoint::new(self.main);
         let change = Disjoint::new(self.change);
         let constraints = Disjoint::new(self.constraints);
-        let split = change_len(self.change) > 0;
         let decay = (-self.damping * self.dt).exp();
         let this = Shared {
             external: self.external,
@@ -139,10 +139,6 @@ impl<const D: usize> GridStep<'_, D> {
             GridSums::default()
         });
     }
-}
-
-fn change_len(change: &[Node]) -> usize {
-    change.len()
 }
 
 /// The first `D` numbers of a node.

@@ -4,7 +4,7 @@
 use super::lane::Portable;
 use super::mpm::Mpm;
 use super::stencil::{
-    CHUNK, Columns, Gathered, Pass, Rates, Reach, Sources, Tile, gather, scatter, scatter_forces,
+    CHUNK, Columns, Gathered, Pass, Rates, Reach, Scattered, Sources, Tile, Wanted, gather, scatter, scatter_forces,
 };
 use crate::basis::Basis;
 use crate::grid::{Block, Node};
@@ -47,7 +47,7 @@ unsafe impl Send for Readable {}
 // SAFETY: as above
 unsafe impl Sync for Readable {}
 
-fn for_each(count: usize, points_each: usize, parallel: bool, work: impl Fn(usize) + Sync) {
+fn for_each(count: usize, points_each: usize, parallel: bool, work: impl Fn(usize) + Send + Sync) {
     if parallel && count > 1 {
         (0..count)
             .into_par_iter()
@@ -60,20 +60,20 @@ fn for_each(count: usize, points_each: usize, parallel: bool, work: impl Fn(usiz
 
 /// Defines a function for one block that picks the fast or the portable version of a kernel.
 macro_rules! with_lanes {
-    ($wide:expr, $kernel:ident :: <$($generic:ty),* $(; $($flag:expr),*)?>($($argument:expr),* $(,)?)) => {{
+    ($wide:expr, $kernel:ident($($argument:expr),* $(,)?)) => {{
         #[cfg(target_arch = "x86_64")]
         if $wide {
             // SAFETY: the instructions were found (`wide_instructions`); the rest as the caller says
-            unsafe { wide::$kernel::<$($generic),* $(, $({ $flag }),*)?>($($argument),*) }
+            unsafe { wide::$kernel::<D, N, B, T>($($argument),*) }
         } else {
             // SAFETY: as the caller says
-            unsafe { $kernel::<Portable, $($generic),* $(, $({ $flag }),*)?>($($argument),*) }
+            unsafe { $kernel::<Portable, D, N, B, T>($($argument),*) }
         }
         #[cfg(not(target_arch = "x86_64"))]
         {
             let _ = $wide;
             // SAFETY: as the caller says
-            unsafe { $kernel::<Portable, $($generic),* $(, $({ $flag }),*)?>($($argument),*) }
+            unsafe { $kernel::<Portable, D, N, B, T>($($argument),*) }
         }
     }};
 }
@@ -94,32 +94,33 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
     /// Momenta, masses and internal forces.
     pub(super) fn points_to_grid(&mut self, state: &mut State<D>, dt: f64) {
         let (main, force) = (Target(self.main.as_mut_ptr()), Target(self.change.as_mut_ptr()));
-        self.scatter_pass::<true, true>(state, dt, main, force);
+        self.scatter_pass(state, dt, Scattered { momentum: true, force: true }, main, force);
     }
 
     /// Momenta and masses.
     pub(super) fn momenta_to_grid(&mut self, state: &mut State<D>, dt: f64) {
         let (main, force) = (Target(self.main.as_mut_ptr()), Target(self.change.as_mut_ptr()));
-        self.scatter_pass::<true, false>(state, dt, main, force);
+        self.scatter_pass(state, dt, Scattered { momentum: true, force: false }, main, force);
     }
 
     /// Internal forces.
     pub(super) fn forces_to_grid(&mut self, state: &mut State<D>, dt: f64) {
         let (main, force) = (Target(self.main.as_mut_ptr()), Target(self.change.as_mut_ptr()));
-        self.scatter_pass::<false, true>(state, dt, main, force);
+        self.scatter_pass(state, dt, Scattered { momentum: false, force: true }, main, force);
     }
 
     /// Momenta and masses, into the second array.
     pub(super) fn momenta_to_grid_again(&mut self, state: &mut State<D>, dt: f64) {
         clear(&mut self.second, &self.blocks.rows, self.parallel);
         let (second, force) = (Target(self.second.as_mut_ptr()), Target(self.change.as_mut_ptr()));
-        self.scatter_pass::<true, false>(state, dt, second, force);
+        self.scatter_pass(state, dt, Scattered { momentum: true, force: false }, second, force);
     }
 
-    fn scatter_pass<const MOMENTUM: bool, const FORCE: bool>(
+    fn scatter_pass(
         &self,
         state: &mut State<D>,
         dt: f64,
+        what: Scattered,
         main: Target,
         force: Target,
     ) {
@@ -134,8 +135,8 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
                     let block = &own.blocks[colour[i] as usize];
                     with_lanes!(
                         self.wide,
-                        scatter::<D, N, B, T; MOMENTUM, FORCE>(
-                            &pass, &columns, block, self.edge, { main }.0, { force }.0
+                        scatter(
+                            &pass, &columns, block, self.edge, what, { main }.0, { force }.0
                         )
                     );
                 });
@@ -164,7 +165,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
                     if !forces.is_empty() {
                         with_lanes!(
                             self.wide,
-                            scatter_forces::<D, N, B, T>(
+                            scatter_forces(
                                 &pass, &columns, block, self.edge, { external }.0, forces
                             )
                         );
@@ -177,33 +178,39 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
 
     /// Update stress last: velocities, positions and stresses from the velocities at the end of the step.
     pub(super) fn move_and_strain_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        self.gather_pass::<true, true, true, true>(state, dt, from)
+        let what = Wanted { velocity: true, position: true, rate: true, same: true };
+        self.gather_pass(state, dt, what, from)
     }
 
     /// Velocities and positions.
     pub(super) fn move_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        self.gather_pass::<true, true, false, false>(state, dt, from)
+        let what = Wanted { velocity: true, position: true, rate: false, same: false };
+        self.gather_pass(state, dt, what, from)
     }
 
     /// Velocities.
     pub(super) fn accelerate_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        self.gather_pass::<true, false, false, false>(state, dt, from)
+        let what = Wanted { velocity: true, position: false, rate: false, same: false };
+        self.gather_pass(state, dt, what, from)
     }
 
     /// Stresses from the second velocities.
     pub(super) fn strain_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        self.gather_pass::<false, false, true, false>(state, dt, from)
+        let what = Wanted { velocity: false, position: false, rate: true, same: false };
+        self.gather_pass(state, dt, what, from)
     }
 
     /// Positions from the velocities at the end of the step, stresses from the second velocities.
     pub(super) fn move_points_and_strain_by_second(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        self.gather_pass::<false, true, true, false>(state, dt, from)
+        let what = Wanted { velocity: false, position: true, rate: true, same: false };
+        self.gather_pass(state, dt, what, from)
     }
 
-    fn gather_pass<const VELOCITY: bool, const MOVE: bool, const RATE: bool, const SAME: bool>(
+    fn gather_pass(
         &mut self,
         state: &mut State<D>,
         dt: f64,
+        what: Wanted,
         from: &Sources,
     ) -> Gathered {
         let mut results = std::mem::take(&mut self.gathered);
@@ -220,7 +227,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
             results.resize(blocks.len(), Gathered::NONE);
             let work = |block: &Block<D>| {
                 let from = from;
-                self.gather_block::<VELOCITY, MOVE, RATE, SAME>(&pass, &columns, block, &shift, material, &{ from }.0)
+                self.gather_block(&pass, &columns, block, &shift, material, what, &{ from }.0)
             };
             if self.parallel && blocks.len() > 1 {
                 results
@@ -239,13 +246,15 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
         total
     }
 
-    fn gather_block<const VELOCITY: bool, const MOVE: bool, const RATE: bool, const SAME: bool>(
+    #[allow(clippy::too_many_arguments)]
+    fn gather_block(
         &self,
         pass: &Pass<'_, D, B, T>,
         columns: &Columns<D>,
         block: &Block<D>,
         shift: &[f64; D],
         material: &dyn MaterialPoints<D>,
+        what: Wanted,
         from: &Sources,
     ) -> Gathered {
         let tile = Tile::new(block, self.edge, N);
@@ -257,12 +266,12 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
             let count = CHUNK.min(rows.end - first);
             let gathered = with_lanes!(
                 self.wide,
-                gather::<D, N, B, T; VELOCITY, MOVE, RATE, SAME>(
-                    pass, columns, &tile, &reach, first..first + count, from, &mut rates
+                gather(
+                    pass, columns, &tile, &reach, first..first + count, what, from, &mut rates
                 )
             );
             total = total.and(gathered);
-            if RATE {
+            if what.rate {
                 // SAFETY: these rows belong to this block alone
                 unsafe {
                     let (plane, hoop, hoop_stretches) = columns.law_columns(first, count);
@@ -300,16 +309,17 @@ mod wide {
     use crate::solver::lane::Avx;
 
     #[target_feature(enable = "avx2,fma")]
-    pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer, const MOMENTUM: bool, const FORCE: bool>(
+    pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
         pass: &Pass<'_, D, B, T>,
         columns: &Columns<D>,
         block: &Block<D>,
         edge: i32,
+        what: Scattered,
         main: *mut Node,
         force: *mut Node,
     ) {
         // SAFETY: passed on to the caller
-        unsafe { super::scatter::<Avx, D, N, B, T, MOMENTUM, FORCE>(pass, columns, block, edge, main, force) }
+        unsafe { super::scatter::<Avx, D, N, B, T>(pass, columns, block, edge, what, main, force) }
     }
 
     #[target_feature(enable = "avx2,fma")]
@@ -332,22 +342,19 @@ mod wide {
         const N: usize,
         B: Basis<N>,
         T: Transfer,
-        const VELOCITY: bool,
-        const MOVE: bool,
-        const RATE: bool,
-        const SAME: bool,
     >(
         pass: &Pass<'_, D, B, T>,
         columns: &Columns<D>,
         tile: &Tile<D>,
         reach: &Reach<D>,
         rows: std::ops::Range<usize>,
+        what: Wanted,
         sources: &Sources,
         rates: &mut Rates<D>,
     ) -> Gathered {
         // SAFETY: passed on to the caller
         unsafe {
-            super::gather::<Avx, D, N, B, T, VELOCITY, MOVE, RATE, SAME>(pass, columns, tile, reach, rows, sources, rates)
+            super::gather::<Avx, D, N, B, T>(pass, columns, tile, reach, rows, what, sources, rates)
         }
     }
 }

@@ -17,6 +17,7 @@ pub struct Scratch<const D: usize> {
     slots: Vec<u32>,
     order: Vec<u32>,
     leaders: Vec<u32>,
+    seen: Vec<bool>,
     starts: Vec<u32>,
     keys: Vec<[i32; D]>,
     /// For each body, its blocks and the rows in each.
@@ -61,7 +62,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
 
     /// Sorts one body, or names the row of a point that has no place in the grid.
     fn sort_body(&self, index: usize, body: &mut Body<D>, scratch: &mut Scratch<D>) -> Result<(), usize> {
-        let Scratch { slots, order, leaders, starts, keys, occupied } = scratch;
+        let Scratch { slots, order, leaders, seen, starts, keys, occupied } = scratch;
         let blocks = &mut occupied[index];
         let count = body.particles.len();
         keys.clear();
@@ -106,7 +107,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
                 order[*target as usize] = row as u32;
                 *target += 1;
             }
-            reorder::cycle_leaders(order, leaders);
+            reorder::cycle_leaders(order, leaders, seen);
             body.particles.permute(order, leaders);
             body.material.permute(order, leaders);
         }

@@ -18,23 +18,26 @@ use crate::transfer::Transfer;
 /// Points that are gathered together before their law is asked, so that their velocity gradients stay in the first cache.
 pub const CHUNK: usize = 64;
 
+/// The most rows that a tile has: 13 × 13, for blocks of 8 and stencils of 4 in 3D.
+const MAX_ROWS: usize = 169;
+
 /// Storage of the nodes that the points of one block may reach: all rows of an `edge + N + 1` cube, one node below the block
 /// to `N` nodes above it.
 pub struct Tile<const D: usize> {
-    rows: [usize; Self::MAX_ROWS],
+    rows: [usize; MAX_ROWS],
     width: usize,
+    /// N, in a form that keeps the compiler from unrolling all N³ nodes of a 3D stencil, which takes it long and wins nothing.
+    n: usize,
     origin: [i32; D],
 }
 
 impl<const D: usize> Tile<D> {
-    const MAX_ROWS: usize = 169;
-
     /// The tile of a block of `edge` nodes for stencils of `n` nodes.
     #[inline(always)]
     pub fn new(block: &Block<D>, edge: i32, n: usize) -> Self {
         let width = edge as usize + n + 1;
         let edge = edge as usize;
-        let mut rows = [0; Self::MAX_ROWS];
+        let mut rows = [0; MAX_ROWS];
         // (which of the three neighbouring blocks, row within it) of row t of the tile
         let place = |t: usize| match t {
             0 => (0, edge - 1),
@@ -64,6 +67,7 @@ impl<const D: usize> Tile<D> {
         Self {
             rows,
             width,
+            n: std::hint::black_box(n),
             origin: block.origin,
         }
     }
@@ -96,7 +100,7 @@ macro_rules! for_each_row {
                 }
             }
             _ => {
-                for $i in 0..$n {
+                for $i in 0..$tile.n {
                     for $j in 0..$n {
                         let $at = $tile.rows[($t[0] + $i) * $tile.width + $t[1] + $j] + $t[2];
                         $body
@@ -178,7 +182,7 @@ unsafe fn scatter_linear<L: Lane, const D: usize, const N: usize>(
                     x[2][k].mul_add(L::splat(w[1][j]), first)
                 })
             });
-            for i in 0..N {
+            for i in 0..tile.n {
                 let wi = L::splat(w[0][i]);
                 for j in 0..N {
                     let at = tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2];
@@ -258,7 +262,7 @@ unsafe fn gather_linear<L: Lane, const D: usize, const N: usize>(
             }
         }
         _ => {
-            for i in 0..N {
+            for i in 0..tile.n {
                 let (mut value, mut dy, mut dz) = (zero, zero, zero);
                 for j in 0..N {
                     let (v, c) =
@@ -425,8 +429,17 @@ impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
     }
 }
 
-/// Adds the points of one block to the grid: with `MOMENTUM` their momentum and mass, with `FORCE` their internal forces, into
-/// `main`; into `force` (in N) where the transfer needs forces by themselves, else as impulses into `main` too.
+/// What points give to the grid.
+#[derive(Clone, Copy, Debug)]
+pub struct Scattered {
+    /// Momentum and mass.
+    pub momentum: bool,
+    /// Internal forces.
+    pub force: bool,
+}
+
+/// Adds the points of one block to the grid: momenta and masses into `main`, internal forces
+/// into `force` (in N) where the transfer needs forces by themselves, else as impulses into `main` too.
 ///
 /// # Safety
 /// See the module header; `main` and `force` are arrays of the grid with all of the tile's nodes (`force` may dangle where the
@@ -438,13 +451,12 @@ pub unsafe fn scatter<
     const N: usize,
     B: Basis<N>,
     T: Transfer,
-    const MOMENTUM: bool,
-    const FORCE: bool,
 >(
     pass: &Pass<'_, D, B, T>,
     columns: &Columns<D>,
     block: &Block<D>,
     edge: i32,
+    what: Scattered,
     main: *mut Node,
     force: *mut Node,
 ) {
@@ -459,7 +471,7 @@ pub unsafe fn scatter<
         let mut value = [0.0; 4]; // goes with N
         let mut hoop = 0.0; // radial force that goes with N
         let mut columns_of_x = [[L::splat(0.0); N]; D];
-        if MOMENTUM {
+        if what.momentum {
             for a in 0..D {
                 value[a] = mass * velocity[a];
             }
@@ -477,7 +489,7 @@ pub unsafe fn scatter<
             }
         }
         let mut forces = [[L::splat(0.0); N]; D];
-        if FORCE {
+        if what.force {
             // SAFETY: as above
             let (volume, stress) = unsafe {
                 (
@@ -502,15 +514,15 @@ pub unsafe fn scatter<
         // SAFETY: the tile holds every node of the stencil (module header)
         unsafe {
             if T::CHANGE {
-                if MOMENTUM {
+                if what.momentum {
                     add_point(main, &tile, &s, L::new(value), T::AFFINE, columns_of_x);
                 }
-                if FORCE {
+                if what.force {
                     add_point(force, &tile, &s, L::new([hoop, 0.0, 0.0, 0.0]), true, forces);
                 }
             } else {
                 value[0] += hoop;
-                let linear = FORCE || T::AFFINE;
+                let linear = what.force || T::AFFINE;
                 add_point(main, &tile, &s, L::new(value), linear, columns_of_x);
             }
         }
@@ -632,8 +644,20 @@ pub struct Sources {
     pub second: *const Node,
 }
 
-/// Brings the grid to the given rows (at most [`CHUNK`]) of a block: with `VELOCITY` new velocities (and affine fields), with `RATE` velocity
-/// gradients, and with `MOVE` new positions. The gradients come from `main` with `SAME`, else from `second`.
+/// What points take from the grid.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// New velocities, and affine fields.
+    pub velocity: bool,
+    /// New positions.
+    pub position: bool,
+    /// Velocity gradients.
+    pub rate: bool,
+    /// Whether the gradients are those of `main`; else of `second`.
+    pub same: bool,
+}
+
+/// Brings the grid to the given rows (at most [`CHUNK`]) of a block.
 ///
 /// # Safety
 /// See the module header; `sources` are arrays of the grid with all of the tile's nodes (those that the pass does not use may
@@ -646,16 +670,13 @@ pub unsafe fn gather<
     const N: usize,
     B: Basis<N>,
     T: Transfer,
-    const VELOCITY: bool,
-    const MOVE: bool,
-    const RATE: bool,
-    const SAME: bool,
 >(
     pass: &Pass<'_, D, B, T>,
     columns: &Columns<D>,
     tile: &Tile<D>,
     reach: &Reach<D>,
     rows: std::ops::Range<usize>,
+    what: Wanted,
     sources: &Sources,
     rates: &mut Rates<D>,
 ) -> Gathered {
@@ -672,32 +693,32 @@ pub unsafe fn gather<
         let mut hoop_velocity = 0.0;
         // SAFETY: the tile holds every node of the stencil (module header)
         unsafe {
-            if RATE {
-                let from = if SAME { sources.main } else { sources.second };
+            if what.rate {
+                let from = if what.same { sources.main } else { sources.second };
                 let (value, gradient) = gather_linear::<L, D, N>(from, tile, t, w, &s.slope);
                 rates.gradient[p - first_row] = matrix::<L, D>(gradient);
                 hoop_velocity = value.array()[0];
-                if SAME {
+                if what.same {
                     new = value;
                 }
             }
-            if VELOCITY && T::AFFINE {
+            if what.velocity && T::AFFINE {
                 let g = pass.affine_weights(&s);
                 let (value, gradient) = gather_linear::<L, D, N>(sources.main, tile, t, w, &g);
                 *columns.affine.add(p) = matrix::<L, D>(gradient);
                 new = value;
-            } else if !(RATE && SAME) && (MOVE || (VELOCITY && (blend || !T::CHANGE))) {
+            } else if !(what.rate && what.same) && (what.position || (what.velocity && (blend || !T::CHANGE))) {
                 new = gather_value::<L, D, N>(sources.main, tile, t, w);
             }
         }
-        if RATE && D == 2 && columns.axisymmetric {
+        if what.rate && D == 2 && columns.axisymmetric {
             let hoop = hoop_velocity / position[0];
             rates.hoop[p - first_row] = hoop;
             // SAFETY: as above
             unsafe { *columns.hoop_stretch.add(p) *= 1.0 + pass.dt * hoop };
         }
         let new: Vector<D> = vector(new);
-        if VELOCITY {
+        if what.velocity {
             // SAFETY: as above
             let (old, mass) = unsafe { (*columns.velocity.add(p), *columns.mass.add(p)) };
             let change: Vector<D> = if T::CHANGE {
@@ -716,7 +737,7 @@ pub unsafe fn gather<
             gathered.within &= square.is_finite();
             gathered.speed_squared = gathered.speed_squared.max(square);
         }
-        if MOVE {
+        if what.position {
             for a in 0..D {
                 position[a] += pass.dt * new[a];
             }
