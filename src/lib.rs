@@ -9,5 +9,6 @@ pub mod cli;
 pub mod input;
 pub mod material;
 pub mod math;
+pub mod report;
 pub mod scenario;
 pub mod transfer;
