@@ -13,6 +13,7 @@ pub mod math;
 pub mod observe;
 pub mod reorder;
 pub mod run;
+pub mod report;
 pub mod scenario;
 pub mod solver;
 pub mod state;
