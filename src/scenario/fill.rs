@@ -278,3 +278,6 @@ impl<'a> Filling<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -46,7 +46,8 @@ impl Geometry for Cuboid {
 
     /// π (r_max² − r_min²) height.
     fn revolved(&self) -> Option<f64> {
-        let (inner, outer) = (self.min[0].max(0.0), self.max[0].max(0.0));
-        Some(PI * (outer - inner) * (outer + inner) * (self.max[1] - self.min[1]))
+        let (&[inner, low], &[outer, high]) = (&self.min[..], &self.max[..]) else { return None };
+        let (inner, outer) = (inner.max(0.0), outer.max(0.0));
+        Some(PI * (outer - inner) * (outer + inner) * (high - low))
     }
 }

@@ -85,3 +85,6 @@ shapes! {
     "union" => union::Union,
     "difference" => difference::Difference,
 }
+
+#[cfg(test)]
+mod tests;
