@@ -208,6 +208,9 @@ impl<'a> Reader<'a> {
         let value = self
             .formula(node, path, unit, &[])?
             .value(&Default::default());
+        if value.is_nan() {
+            return None; // It uses a constant whose problem has been reported.
+        }
         let typed = match &node.value {
             Value::Text(text) => short(text.trim()),
             Value::Integer(_, text) | Value::Float(_, text) => short(text),
