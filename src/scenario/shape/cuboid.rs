@@ -21,9 +21,10 @@ impl Geometry for Cuboid {
         let (min, max) = (min?, max?);
         for axis in 0..dimension {
             if min[axis] >= max[axis] {
+                let key = format!("max[{axis}]");
                 let (axis, min, max) = (["x", "y", "z"][axis], min[axis], max[axis]);
                 reader.problem(
-                    "max",
+                    &key,
                     format!("along {axis} the box ends at {max} m, which is not above its start {min} m: make max larger than min"),
                 );
                 return None;
