@@ -266,3 +266,22 @@ fn an_unused_material_and_a_far_probe_are_warned_about() {
         "{warnings:?}"
     );
 }
+
+#[test]
+fn a_1d_material_that_would_contract_is_warned_about_unless_the_plane_is_given() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/good_scenarios");
+    let text = std::fs::read_to_string(folder.join("bar.toml")).expect("readable");
+    let warnings = |settings: &[&str]| {
+        let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+        parse("bar", &text, &settings)
+            .unwrap_or_else(|error| panic!("{error}"))
+            .warnings
+    };
+    let ratio = "material.bar.linear_elastic.poissons_ratio=0.3";
+    let [warning] = &warnings(&[ratio])[..] else {
+        panic!("one warning")
+    };
+    assert!(warning.contains("plane = \"stress\""), "{warning}");
+    assert!(warnings(&[ratio, "plane=\"stress\""]).is_empty());
+    assert!(warnings(&[ratio, "plane=\"strain\""]).is_empty());
+}

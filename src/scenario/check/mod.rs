@@ -209,7 +209,10 @@ fn named<'n>(
 
 /// Where something acts: `on.side` or `on.box`.
 fn region(reader: &mut Reader<'_>, frame: Frame, grid: Option<&GridSpec>) -> Option<Region> {
-    let mut on = reader.table("on")?;
+    let mut on = reader.table_such_as(
+        "on",
+        "on.side = \"x_min\" or on.box = { min = [...], max = [...] }",
+    )?;
     let region = match on.one_key(&["side", "box"])? {
         "side" => Region::Side(Side::read(&mut on, "side", frame.dimension)?),
         _ => {
@@ -251,7 +254,7 @@ fn corners(table: &mut Reader<'_>, dimension: usize) -> Option<(Vec<f64>, Vec<f6
     let (min, max) = (min?, max?);
     for number in 0..dimension {
         if min[number] > max[number] {
-            let (axis, min, max) = (AXES[number], min[number], max[number]);
+            let (axis, min, max) = (AXES[number], shown(min[number]), shown(max[number]));
             let message =
                 format!("along {axis} the box ends at {max} m, below its start {min} m: swap them");
             table.problem(&format!("max[{number}]"), message);
@@ -261,8 +264,17 @@ fn corners(table: &mut Reader<'_>, dimension: usize) -> Option<(Vec<f64>, Vec<f6
     Some((min, max))
 }
 
+/// A number, for people: without a page of zeros.
+pub(super) fn shown(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e7).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
 /// A place, for people.
 fn place(at: &[f64]) -> String {
-    let numbers: Vec<_> = at.iter().map(|x| format!("{x}")).collect();
+    let numbers: Vec<_> = at.iter().map(|x| shown(*x)).collect();
     format!("({}) m", numbers.join(", "))
 }

@@ -1,6 +1,6 @@
 //! Time, grid and method.
 
-use super::{AXES, Frame};
+use super::{AXES, Frame, shown};
 use crate::basis::BasisChoice;
 use crate::input::{Bound, Reader, Unit};
 use crate::material::Plane;
@@ -39,8 +39,10 @@ pub(super) fn time(root: &mut Reader<'_>) -> Option<(f64, StepRule)> {
                 reader.problem(
                     "step",
                     format!(
-                        "{:.1e} steps of {step} s would be needed up to {end} s: use a longer step",
-                        end / step
+                        "{:.1e} steps of {} s would be needed up to {} s: use a longer step",
+                        end / step,
+                        shown(step),
+                        shown(end)
                     ),
                 );
             }
@@ -70,7 +72,7 @@ pub(super) fn grid<'a>(
     {
         let message = format!(
             "x is the distance from the axis and starts at {} m: start at 0 or above",
-            min[0]
+            shown(min[0])
         );
         reader.problem("min", message);
         return (None, Some(reader));
@@ -81,7 +83,7 @@ pub(super) fn grid<'a>(
     for axis in 0..dimension {
         if min[axis] >= max[axis] {
             let key = format!("max[{axis}]");
-            let (axis, min, max) = (AXES[axis], min[axis], max[axis]);
+            let (axis, min, max) = (AXES[axis], shown(min[axis]), shown(max[axis]));
             let message = format!(
                 "along {axis} the grid ends at {max} m, which is not above its start {min} m: make max larger than min"
             );
@@ -113,7 +115,7 @@ fn cells(lengths: &[f64], size: f64) -> Result<Vec<i32>, String> {
     if let Some(axis) =
         (0..lengths.len()).find(|axis| exact(*axis).is_nan() || exact(*axis) > MOST_CELLS)
     {
-        let (count, axis) = (exact(axis), AXES[axis]);
+        let (count, size, axis) = (exact(axis), shown(size), AXES[axis]);
         return Err(format!(
             "along {axis} {count:.1e} cells of {size} m would be needed, more than 2^30: use larger cells"
         ));
@@ -123,14 +125,18 @@ fn cells(lengths: &[f64], size: f64) -> Result<Vec<i32>, String> {
             .map(|axis| exact(axis).round() as i32)
             .collect());
     };
-    let (length, count, axis) = (lengths[axis], exact(axis), AXES[axis]);
+    let (length, count, axis) = (shown(lengths[axis]), exact(axis), AXES[axis]);
     let remedy = match &fitting_sizes(lengths, size)[..] {
         [] => "no size close to it fits every axis: change grid.max".to_string(),
         sizes => {
-            let sizes: Vec<_> = sizes.iter().map(|size| format!("{size} m")).collect();
+            let sizes: Vec<_> = sizes
+                .iter()
+                .map(|size| format!("{} m", shown(*size)))
+                .collect();
             format!("use {}", sizes.join(" or "))
         }
     };
+    let size = shown(size);
     Err(format!(
         "along {axis} the grid is {length} m long, which is {count:.4} cells of {size} m and has to be a whole number: {remedy}"
     ))

@@ -2,6 +2,7 @@
 
 use super::{Bounds, Geometry};
 use crate::input::{Reader, Unit};
+use crate::scenario::check::shown;
 use std::f64::consts::PI;
 
 /// All places between two corners.
@@ -22,7 +23,7 @@ impl Geometry for Cuboid {
         for axis in 0..dimension {
             if min[axis] >= max[axis] {
                 let key = format!("max[{axis}]");
-                let (axis, min, max) = (["x", "y", "z"][axis], min[axis], max[axis]);
+                let (axis, min, max) = (["x", "y", "z"][axis], shown(min[axis]), shown(max[axis]));
                 reader.problem(
                     &key,
                     format!("along {axis} the box ends at {max} m, which is not above its start {min} m: make max larger than min"),
