@@ -37,7 +37,15 @@ impl Document {
         let (table, errors) = toml::de::DeTable::parse_recoverable(source);
         document.root = Table::new(table.get_ref(), &Origin::File);
         document.broken = !errors.is_empty();
-        for error in &errors {
+        // One slip in a line often breaks the rest of it: the first error says enough.
+        let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
+        let mut errors: Vec<(usize, toml::de::Error)> = errors
+            .into_iter()
+            .map(|error| (line_of(source, start(&error)), error))
+            .collect();
+        errors.sort_by_key(|(_, error)| start(error));
+        errors.dedup_by_key(|(line, _)| *line);
+        for (_, error) in &errors {
             let origin = error.span().map(Origin::File);
             document.add(
                 origin,

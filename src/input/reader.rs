@@ -367,6 +367,8 @@ impl<'a> Reader<'a> {
 impl Drop for Reader<'_> {
     fn drop(&mut self) {
         let stopped_early = !self.missing.is_empty() || self.document.count() > self.earlier;
+        // Behind a broken line a key may stand in the wrong table.
+        let unsure = self.document.broken || (stopped_early && !self.complete);
         let entries = self.table.map_or(&[][..], |table| &table.entries);
         for entry in entries
             .iter()
@@ -381,13 +383,14 @@ impl Drop for Reader<'_> {
                     .flat_map(|missing| &missing.names)
                     .map(String::as_str),
             );
-            let absent = |name: &&str| !entries.iter().any(|entry| entry.key == **name);
+            let absent =
+                |name: &&str| self.complete || !entries.iter().any(|entry| entry.key == **name);
             let near = missed
                 .or_else(|| nearest(key, self.known.iter().map(String::as_str).filter(absent)));
             let near = near.map(str::to_string);
             let message = match &near {
                 Some(near) => format!("unknown key \"{key}\"; did you mean \"{near}\"?"),
-                None if stopped_early && !self.complete => continue,
+                None if unsure => continue,
                 None if self.known.is_empty() => {
                     format!("unknown key \"{key}\"; nothing can be set here")
                 }

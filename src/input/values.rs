@@ -290,7 +290,7 @@ fn whole(min: i64, max: i64) -> String {
 fn breach(value: f64, typed: &str, bound: Bound) -> Option<String> {
     // Limits are shown in the unit that the user thinks in.
     let show = |limit: f64| match typed.strip_suffix("deg") {
-        Some(_) => format!("{} deg", (limit * 180.0 / PI * 1e9).round() / 1e9),
+        Some(_) => format!("{} deg", (limit * 180.0 / PI * 1e6).round() / 1e6),
         None => format!("{limit}"),
     };
     match bound {
