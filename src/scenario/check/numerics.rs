@@ -143,7 +143,7 @@ fn cells(lengths: &[f64], size: f64) -> Result<Vec<i32>, String> {
 }
 
 fn is_whole(count: f64) -> bool {
-    count >= 0.5 && (count - count.round()).abs() <= 1e-9 * count
+    count >= 0.5 && (count - count.round()).abs() <= (1e-9 * count).min(1e-4)
 }
 
 /// The sizes next to a given one, above and below, of which a whole number fits along every axis.

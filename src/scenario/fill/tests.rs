@@ -163,22 +163,3 @@ fn a_box_selects_what_it_holds() {
     assert_eq!(points.nearest(&[0.25, 0.25]), Some(0));
     assert_eq!(points.nearest(&[9.0, 0.4]), Some(13));
 }
-
-#[test]
-#[ignore = "a timing"]
-fn ten_million_points() {
-    let shape = ball(&[2.0; 3], 1.34);
-    let grid = grid(&[200; 3], 0.02);
-    let start = std::time::Instant::now();
-    let filling = Filling::new(&shape, &grid, &[1; 3], Plane::Strain);
-    let count = Filling::new(&shape, &grid, &[2; 3], Plane::Strain).count();
-    eprintln!("{count} counted {:?}", start.elapsed());
-    let points = filling.points();
-    let points2 = Filling::new(&shape, &grid, &[2; 3], Plane::Strain).points();
-    eprintln!(
-        "{} {} {:?}",
-        points.positions.len(),
-        points2.positions.len(),
-        start.elapsed()
-    );
-}
