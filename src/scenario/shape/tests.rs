@@ -37,7 +37,11 @@ fn samples() -> Vec<Shape> {
             shapes: vec![ball(&[0.5, 0.5], 0.5), cuboid(&[1.0, 0.0], &[1.5, 0.5])],
         }),
         Shape::Union(Union {
-            shapes: vec![ball(&[0.5, 0.5], 0.25)],
+            shapes: vec![ball(&[0.5, 0.5], 0.25), ball(&[1.25, 0.5], 0.5)],
+        }),
+        Shape::Difference(Difference {
+            of: Box::new(cuboid(&[0.0, -1.0], &[1.5, 1.0])),
+            minus: vec![ball(&[0.5, 0.5], 0.4), ball(&[1.0, -0.25], 0.3)],
         }),
         Shape::Difference(Difference {
             of: Box::new(cuboid(&[0.0, 0.0], &[1.0, 1.0])),
@@ -115,4 +119,17 @@ fn the_measure_of_a_polygon_that_crosses_itself_is_not_known() {
         points: vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.5]],
     };
     assert_eq!(Shape::Polygon(bow).measure(), None);
+}
+
+#[test]
+fn the_measure_of_shapes_that_may_overlap_is_not_known() {
+    let overlapping = Union {
+        shapes: vec![ball(&[0.0, 0.0], 1.0), ball(&[0.5, 0.0], 1.0)],
+    };
+    let notch = Difference {
+        of: Box::new(cuboid(&[0.0, 0.0], &[1.0, 1.0])),
+        minus: vec![ball(&[0.0, 0.0], 0.5)],
+    };
+    assert_eq!(Shape::Union(overlapping).measure(), None);
+    assert_eq!(Shape::Difference(notch).measure(), None);
 }
