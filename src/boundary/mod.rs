@@ -101,3 +101,6 @@ conditions! {
     "driven" => driven::Driven,
     "wall" => wall::Wall,
 }
+
+#[cfg(test)]
+mod tests;

@@ -24,6 +24,12 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// A sub-table that must be there; `example` is what to add if it is not.
+    pub fn table_such_as(&mut self, key: &str, example: &str) -> Option<Reader<'a>> {
+        self.find_or_report(key, &format!("add {example}"))?;
+        self.optional_table(key)
+    }
+
     /// The length of the list under a key; `None` if the key is left out or holds something else.
     pub fn list_length(&mut self, key: &str) -> Option<usize> {
         match &self.find(key)?.node.value {

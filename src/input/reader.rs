@@ -220,7 +220,7 @@ impl<'a> Reader<'a> {
                     Reader::new(
                         self.document,
                         None,
-                        self.join(key),
+                        format!("{}.{name}", self.join(key)),
                         Some(entry.node.origin.clone()),
                     ),
                 ))

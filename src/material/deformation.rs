@@ -53,11 +53,12 @@ impl<const D: usize> Deformation<D> {
     /// What J − 1 has beyond the sum of the strains, that is, its part of second and higher order.
     #[inline(always)]
     pub fn volume_change_beyond_trace(&self) -> f64 {
-        let plane = determinant_less_one(&self.displacement_gradient);
-        let transverse = self.transverse_change();
-        determinant_beyond_trace(&self.displacement_gradient)
-            + (transverse - Self::TRANSVERSE * self.transverse)
-            + plane * transverse
+        let squared = match D {
+            1 => self.transverse * self.transverse,
+            _ => 0.0,
+        };
+        let product = determinant_less_one(&self.displacement_gradient) * self.transverse_change();
+        determinant_beyond_trace(&self.displacement_gradient) + squared + product
     }
 
     /// The product of the transverse stretches, less one.

@@ -210,6 +210,14 @@ fn relax<const D: usize, L: Hyperelastic>(law: &L, deformation: &mut Deformation
             lower = y;
         }
         let mut next = y - (residual * inverse_slope).clamp(-1.0, 1.0);
+        if next == y {
+            break;
+        }
+        if next.abs() >= FARTHEST {
+            y = f64::NAN; // no such stretch
+            break;
+        }
+        // y is one end of the bracket and the step leads away from it; the other end, if known, must not be passed
         if next <= lower || next >= upper {
             next = 0.5 * (lower + upper);
         }
@@ -237,7 +245,7 @@ fn relax<const D: usize, L: Hyperelastic>(law: &L, deformation: &mut Deformation
             compliance
         };
     }
-    if crushed || !(y.abs() < FARTHEST - 0.1) || stress.transverse.is_nan() {
+    if crushed || y.is_nan() || stress.transverse.is_nan() {
         deformation.transverse = f64::NAN;
         return Stress::undefined();
     }

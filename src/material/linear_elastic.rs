@@ -127,8 +127,7 @@ impl<const D: usize> Material<D> for Hypoelastic {
         let old_ratio = 1.0 + *memory;
         *memory += change * old_ratio;
         let ratio = 1.0 + *memory;
-        let crushed = !(ratio > 0.0) || side <= -1.0;
-        if crushed {
+        if ratio <= 0.0 || side <= -1.0 {
             *stress = Stress::undefined();
             return;
         }
@@ -202,8 +201,9 @@ impl<const D: usize> Material<D> for Hypoelastic {
             return modulus - share * stress.plane[(0, 0)];
         }
         let spread = eigenvalue_spread_bound(&stress.plane);
-        let pressure = largest_eigenvalue_bound(&-stress.plane).max(0.0);
-        modulus + 0.75 * spread + share * (pressure + 0.25 * spread)
+        let sign = 1.0_f64.copysign(share); // κ < 0 where ν < 0: then tension counts
+        let pressure = largest_eigenvalue_bound(&(stress.plane * -sign)).max(0.0);
+        modulus + 0.75 * spread + share.abs() * (pressure + 0.25 * spread)
     }
 
     fn memory_names(&self) -> Vec<String> {

@@ -161,7 +161,7 @@ macro_rules! materials {
             #[cfg(test)]
             pub(crate) fn samples(elasticity: Isotropic) -> Vec<Self> {
                 let mut samples = Vec::new();
-                $(samples.extend($law::samples(elasticity).into_iter().map(Self::$law));)*
+                $(samples.extend(<$law as Law>::samples(elasticity).into_iter().map(Self::$law));)*
                 samples
             }
         }

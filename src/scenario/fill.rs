@@ -50,24 +50,36 @@ impl PointSet {
 
     /// The numbers of the points that a load acts on: the outermost layer on a side, or all points inside a box.
     pub fn selected(&self, on: &Region) -> Vec<usize> {
-        let chosen: Box<dyn Fn(&[f64; 3]) -> bool> = match on {
+        let all = || self.positions.iter().enumerate();
+        match on {
             Region::Side(side) => {
-                let (axis, sign) = (side.axis, if side.upper { 1.0 } else { -1.0 });
-                let outermost = (self.positions.iter().map(|at| sign * at[axis]))
+                let outwards = |at: &[f64; 3]| {
+                    if side.upper {
+                        at[side.axis]
+                    } else {
+                        -at[side.axis]
+                    }
+                };
+                let outermost = all()
+                    .map(|(_, at)| outwards(at))
                     .fold(f64::NEG_INFINITY, f64::max);
-                let depth = 0.5 * self.spacing[axis];
-                Box::new(move |at| sign * at[axis] > outermost - depth)
+                let inner = outermost - 0.5 * self.spacing[side.axis];
+                all()
+                    .filter(|(_, at)| outwards(at) > inner)
+                    .map(|(index, _)| index)
+                    .collect()
             }
-            Region::Box { min, max } => Box::new(move |at| {
-                min.iter()
-                    .zip(max)
-                    .zip(at)
-                    .all(|((min, max), x)| min <= x && x <= max)
-            }),
-        };
-        (0..self.positions.len())
-            .filter(|index| chosen(&self.positions[*index]))
-            .collect()
+            Region::Box { min, max } => {
+                let inside = |at: &[f64; 3]| {
+                    let bounds = min.iter().zip(max);
+                    bounds.zip(at).all(|((min, max), x)| min <= x && x <= max)
+                };
+                all()
+                    .filter(|(_, at)| inside(at))
+                    .map(|(index, _)| index)
+                    .collect()
+            }
+        }
     }
 
     /// The number of the point closest to a place, the lowest among equals; `None` if there is no point.
@@ -228,9 +240,14 @@ impl<'a> Filling<'a> {
             self.shape.measure()
         };
         if let Some(exact) = exact {
-            let sum: crate::math::Sum = (0..total).map(|index| points.volume(index)).collect();
-            if sum.value() > 0.0 {
-                points.cell *= exact / sum.value();
+            let sum = if self.rings {
+                let volumes = (0..total).map(|index| points.volume(index));
+                volumes.collect::<crate::math::Sum>().value()
+            } else {
+                points.cell * total as f64
+            };
+            if sum > 0.0 {
+                points.cell *= exact / sum;
             }
         }
         points
@@ -278,3 +295,6 @@ impl<'a> Filling<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

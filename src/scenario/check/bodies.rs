@@ -1,6 +1,6 @@
 //! Bodies.
 
-use super::{AXES, CountedBody, Frame, Named, TINY, named, place};
+use super::{AXES, CountedBody, Frame, Named, TINY, named, place, shown};
 use crate::input::{Document, Reader, Unit, Variables};
 use crate::material::Plane;
 use crate::scenario::fill::Filling;
@@ -10,7 +10,7 @@ use crate::scenario::{BodySpec, GridSpec, MaterialSpec};
 /// More points than this along each edge of a cell cost much and give nothing.
 const MOST_PER_CELL: i64 = 16;
 /// Looking at more places than this takes minutes.
-const MOST_CANDIDATES: f64 = 1e10;
+pub(super) const MOST_CANDIDATES: f64 = 2e9;
 
 /// All bodies, in file order.
 pub(super) fn bodies(
@@ -54,11 +54,16 @@ fn body(
         "material",
         materials.iter().map(|named| &named.name[..]),
     );
-    let shape = reader.table("shape").and_then(|mut table| {
-        let shape = Shape::read(&mut table, dimension);
-        table.finish();
-        shape
-    });
+    let shape = reader
+        .table_such_as(
+            "shape",
+            "a shape such as shape.box = { min = [...], max = [...] }",
+        )
+        .and_then(|mut table| {
+            let shape = Shape::read(&mut table, dimension);
+            table.finish();
+            shape
+        });
     let per_cell = if reader.has("particles_per_cell") {
         reader.integers_one_or_list("particles_per_cell", dimension, 1, MOST_PER_CELL)
     } else {
@@ -95,7 +100,8 @@ fn count(reader: &mut Reader<'_>, body: &BodySpec, grid: &GridSpec, frame: Frame
         }
         let (start, end, slack) = (grid.min[axis], grid.max[axis], TINY * grid.cell_size);
         if min < start - slack || max > end + slack {
-            let axis = AXES[axis];
+            let (axis, min, max) = (AXES[axis], shown(min), shown(max));
+            let (start, end) = (shown(start), shown(end));
             reader.problem(
                 "shape",
                 format!(
@@ -114,7 +120,7 @@ fn count(reader: &mut Reader<'_>, body: &BodySpec, grid: &GridSpec, frame: Frame
     }
     let points = filling.count();
     if points == 0 {
-        let (size, per_cell) = (grid.cell_size, &body.particles_per_cell);
+        let (size, per_cell) = (shown(grid.cell_size), &body.particles_per_cell);
         reader.problem(
             "shape",
             format!(

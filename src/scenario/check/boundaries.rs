@@ -90,7 +90,7 @@ pub(super) fn check_axis(
     };
     let axisymmetric = frame.plane == Plane::Axisymmetric && grid.min[0] == 0.0;
     if axisymmetric && bodies.iter().any(on_axis) && !boundaries.iter().any(holds) {
-        let message = "a body touches the axis x = 0 and nothing keeps it from crossing: add [[boundary]] with on.side = \"x_min\" and condition = \"roller\"";
+        let message = "a body reaches the axis x = 0 and nothing keeps it from crossing: add [[boundary]] with on.side = \"x_min\" and condition = \"roller\"";
         root.problem("boundary", message);
     }
 }

@@ -26,6 +26,8 @@ const TINY: f64 = 1e-9;
 struct Frame {
     dimension: usize,
     plane: Plane,
+    /// Whether the file says it.
+    plane_given: bool,
 }
 
 /// What was found under a name: the name can be referred to even if the rest is wrong.
@@ -63,7 +65,7 @@ pub(super) fn scenario(
     let time = numerics::time(&mut root);
     let (grid, grid_reader) = numerics::grid(&mut root, frame);
     let method = numerics::method(&mut root);
-    let materials = materials::materials(&mut root, document);
+    let materials = materials::materials(&mut root, document, frame, warnings);
     let bodies = bodies::bodies(&mut root, document, frame, grid.as_ref(), &materials);
     if let (Some(grid), Some(mut reader)) = (&grid, grid_reader) {
         size::check(&mut reader, &bodies, grid, frame);
@@ -84,7 +86,7 @@ pub(super) fn scenario(
     let output = records::output(&mut root, time.map(|time| time.0));
     let probes = records::probes(&mut root, frame, grid.as_ref(), &bodies, warnings);
     root.finish();
-    materials::warn(frame, &materials, &bodies, warnings);
+    materials::warn_of_unused(&materials, &bodies, warnings);
 
     let (end, step) = time?;
     let materials = materials
@@ -144,7 +146,12 @@ fn frame(root: &mut Reader<'_>, document: &Document) -> Option<Frame> {
             _ => Plane::Strain,
         }
     };
-    Some(Frame { dimension, plane })
+    let plane_given = root.has("plane");
+    Some(Frame {
+        dimension,
+        plane,
+        plane_given,
+    })
 }
 
 /// The name of one thing of a kind, which has to be new, and fit to be part of a file's name.
@@ -160,14 +167,16 @@ fn name(
         reader.text("name")
     }?;
     let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    let problem = if name.is_empty() || name.len() > 64 || !name.chars().all(fits) {
-        "a name is part of a file's name: use up to 64 letters, digits, \"-\" and \"_\"".to_string()
-    } else if taken.contains(&name) {
-        format!("another {kind} is called \"{name}\" already: choose another name")
-    } else {
-        return Some(name);
-    };
-    reader.problem("name", problem);
+    if name.is_empty() || name.len() > 64 || !name.chars().all(fits) {
+        let message =
+            "a name is part of a file's name: use up to 64 letters, digits, \"-\" and \"_\"";
+        reader.problem("name", message);
+        return None;
+    }
+    if taken.contains(&name) {
+        let message = format!("another {kind} is called \"{name}\" already: choose another name");
+        reader.problem("name", message);
+    }
     Some(name)
 }
 
@@ -180,17 +189,17 @@ fn named<'n>(
 ) -> Option<usize> {
     let wanted = reader.text(key)?;
     let found = names.clone().position(|name| name == wanted);
-    if found.is_none() {
+    // A name that could not be read, or the lack of any, is a problem of its own and may be the one that is meant.
+    let complete = names.clone().next().is_some() && names.clone().all(|name| !name.is_empty());
+    if found.is_none() && complete {
         let message = match nearest(&wanted, names.clone()) {
             Some(near) => format!("there is no {kind} \"{wanted}\"; did you mean \"{near}\"?"),
             None => {
                 let known: Vec<_> = names.map(|name| format!("\"{name}\"")).collect();
-                let known = if known.is_empty() {
-                    "none".into()
-                } else {
+                format!(
+                    "there is no {kind} \"{wanted}\"; known: {}",
                     known.join(", ")
-                };
-                format!("there is no {kind} \"{wanted}\"; known: {known}")
+                )
             }
         };
         reader.problem(key, message);
@@ -200,7 +209,10 @@ fn named<'n>(
 
 /// Where something acts: `on.side` or `on.box`.
 fn region(reader: &mut Reader<'_>, frame: Frame, grid: Option<&GridSpec>) -> Option<Region> {
-    let mut on = reader.table("on")?;
+    let mut on = reader.table_such_as(
+        "on",
+        "on.side = \"x_min\" or on.box = { min = [...], max = [...] }",
+    )?;
     let region = match on.one_key(&["side", "box"])? {
         "side" => Region::Side(Side::read(&mut on, "side", frame.dimension)?),
         _ => {
@@ -240,20 +252,29 @@ fn corners(table: &mut Reader<'_>, dimension: usize) -> Option<(Vec<f64>, Vec<f6
         &vec![f64::INFINITY; dimension],
     );
     let (min, max) = (min?, max?);
-    for axis in 0..dimension {
-        if min[axis] > max[axis] {
-            let (axis, min, max) = (AXES[axis], min[axis], max[axis]);
+    for number in 0..dimension {
+        if min[number] > max[number] {
+            let (axis, min, max) = (AXES[number], shown(min[number]), shown(max[number]));
             let message =
                 format!("along {axis} the box ends at {max} m, below its start {min} m: swap them");
-            table.problem("max", message);
+            table.problem(&format!("max[{number}]"), message);
             return None;
         }
     }
     Some((min, max))
 }
 
+/// A number, for people: without a page of zeros.
+pub(super) fn shown(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e7).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
 /// A place, for people.
 fn place(at: &[f64]) -> String {
-    let numbers: Vec<_> = at.iter().map(|x| format!("{x}")).collect();
+    let numbers: Vec<_> = at.iter().map(|x| shown(*x)).collect();
     format!("({}) m", numbers.join(", "))
 }

@@ -1,6 +1,6 @@
 //! Time, grid and method.
 
-use super::{AXES, Frame};
+use super::{AXES, Frame, shown};
 use crate::basis::BasisChoice;
 use crate::input::{Bound, Reader, Unit};
 use crate::material::Plane;
@@ -39,8 +39,10 @@ pub(super) fn time(root: &mut Reader<'_>) -> Option<(f64, StepRule)> {
                 reader.problem(
                     "step",
                     format!(
-                        "{:.1e} steps of {step} s would be needed up to {end} s: use a longer step",
-                        end / step
+                        "{:.1e} steps of {} s would be needed up to {} s: use a longer step",
+                        end / step,
+                        shown(step),
+                        shown(end)
                     ),
                 );
             }
@@ -70,7 +72,7 @@ pub(super) fn grid<'a>(
     {
         let message = format!(
             "x is the distance from the axis and starts at {} m: start at 0 or above",
-            min[0]
+            shown(min[0])
         );
         reader.problem("min", message);
         return (None, Some(reader));
@@ -78,62 +80,92 @@ pub(super) fn grid<'a>(
     let (Some(min), Some(max), Some(cell_size)) = (min, max, cell_size) else {
         return (None, Some(reader));
     };
-    let cells: Vec<Option<i32>> = (0..dimension)
-        .map(|axis| match cells(min[axis], max[axis], cell_size) {
-            Ok(cells) => Some(cells),
-            Err((key, message)) => {
-                reader.problem(key, format!("along {} {message}", AXES[axis]));
-                None
-            }
-        })
-        .collect();
-    let cells = cells.into_iter().collect::<Option<_>>();
-    (
-        cells.map(|cells| GridSpec {
-            min,
-            max,
-            cell_size,
-            cells,
-        }),
-        Some(reader),
-    )
+    for axis in 0..dimension {
+        if min[axis] >= max[axis] {
+            let key = format!("max[{axis}]");
+            let (axis, min, max) = (AXES[axis], shown(min[axis]), shown(max[axis]));
+            let message = format!(
+                "along {axis} the grid ends at {max} m, which is not above its start {min} m: make max larger than min"
+            );
+            reader.problem(&key, message);
+            return (None, Some(reader));
+        }
+    }
+    let lengths: Vec<f64> = min.iter().zip(&max).map(|(min, max)| max - min).collect();
+    match cells(&lengths, cell_size) {
+        Ok(cells) => (
+            Some(GridSpec {
+                min,
+                max,
+                cell_size,
+                cells,
+            }),
+            Some(reader),
+        ),
+        Err(message) => {
+            reader.problem("cell_size", message);
+            (None, Some(reader))
+        }
+    }
 }
 
-/// How many cells fit between two ends, or the key to change and why.
-fn cells(min: f64, max: f64, size: f64) -> Result<i32, (&'static str, String)> {
-    if min >= max {
-        let message = format!(
-            "the grid ends at {max} m, which is not above its start {min} m: make max larger than min"
-        );
-        return Err(("max", message));
-    }
-    let length = max - min;
-    let exact = length / size;
-    if !(exact <= MOST_CELLS) {
-        return Err((
-            "cell_size",
-            format!(
-                "{exact:.1e} cells of {size} m would be needed, more than 2^30: use larger cells"
-            ),
+/// How many cells fit along each axis, or why they do not.
+fn cells(lengths: &[f64], size: f64) -> Result<Vec<i32>, String> {
+    let exact = |axis: usize| lengths[axis] / size;
+    if let Some(axis) =
+        (0..lengths.len()).find(|axis| exact(*axis).is_nan() || exact(*axis) > MOST_CELLS)
+    {
+        let (count, size, axis) = (exact(axis), shown(size), AXES[axis]);
+        return Err(format!(
+            "along {axis} {count:.1e} cells of {size} m would be needed, more than 2^30: use larger cells"
         ));
     }
-    let whole = exact.round();
-    if (exact - whole).abs() <= 1e-9 * whole {
-        return Ok(whole as i32);
-    }
-    let below = exact.floor();
-    let fewer = if below >= 1.0 {
-        format!("{} m ({below} cells) or ", length / below)
-    } else {
-        String::new()
+    let Some(axis) = (0..lengths.len()).find(|axis| !is_whole(exact(*axis))) else {
+        return Ok((0..lengths.len())
+            .map(|axis| exact(axis).round() as i32)
+            .collect());
     };
-    let more = format!("{} m ({} cells)", length / (below + 1.0), below + 1.0);
-    Err((
-        "cell_size",
-        format!(
-            "the grid is {length} m long, which is {exact:.3} cells of {size} m and not a whole number: use {fewer}{more}"
-        ),
+    let (length, count, axis) = (shown(lengths[axis]), exact(axis), AXES[axis]);
+    let remedy = match &fitting_sizes(lengths, size)[..] {
+        [] => "no size close to it fits every axis: change grid.max".to_string(),
+        sizes => {
+            let sizes: Vec<_> = sizes
+                .iter()
+                .map(|size| format!("{} m", shown(*size)))
+                .collect();
+            format!("use {}", sizes.join(" or "))
+        }
+    };
+    let size = shown(size);
+    Err(format!(
+        "along {axis} the grid is {length} m long, which is {count:.4} cells of {size} m and has to be a whole number: {remedy}"
     ))
+}
+
+fn is_whole(count: f64) -> bool {
+    count >= 0.5 && (count - count.round()).abs() <= (1e-9 * count).min(1e-4)
+}
+
+/// The sizes next to a given one, above and below, of which a whole number fits along every axis.
+fn fitting_sizes(lengths: &[f64], size: f64) -> Vec<f64> {
+    let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+    let count = (shortest / size).floor();
+    let fits = |count: &f64| {
+        lengths
+            .iter()
+            .all(|length| is_whole(length * count / shortest))
+    };
+    let most = 10_000;
+    let fewer = (0..most)
+        .map(|k| count - f64::from(k))
+        .take_while(|count| *count >= 1.0)
+        .find(fits);
+    let more = (1..most).map(|k| count + f64::from(k)).find(fits);
+    fewer
+        .into_iter()
+        .chain(more)
+        .map(|count| shortest / count)
+        .collect()
 }
 
 /// The numerical method.

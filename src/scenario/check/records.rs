@@ -1,6 +1,6 @@
 //! What is recorded: the times of rows, and probes.
 
-use super::{CountedBody, Frame, Named, named, place};
+use super::{CountedBody, Frame, Named, named, place, shown};
 use crate::input::{Bound, Reader, Unit};
 use crate::scenario::{GridSpec, OutputSpec, ProbeSpec, ProbeTarget};
 
@@ -32,7 +32,9 @@ pub(super) fn output(root: &mut Reader<'_>, end: Option<f64>) -> Option<OutputSp
                     reader.problem(
                         "every",
                         format!(
-                            "{every} s is longer than the run, which ends at {end} s: use less"
+                            "{} s is longer than the run, which ends at {} s: use less",
+                            shown(every),
+                            shown(end)
                         ),
                     );
                 } else if end / every > MOST_SAMPLES as f64 {

@@ -1,5 +1,6 @@
 //! Whether the scene fits into this machine.
 
+use super::bodies::MOST_CANDIDATES;
 use super::{CountedBody, Frame, Named};
 use crate::input::Reader;
 use crate::scenario::GridSpec;
@@ -25,23 +26,26 @@ pub(super) fn check(
         points += counted
             .points
             .map_or(filling.estimate(), |points| points as f64);
-        uncountable |= counted.points.is_none() && filling.candidates() > 1e10;
+        uncountable |= counted.points.is_none() && filling.candidates() > MOST_CANDIDATES;
     }
     let bytes = points * BYTES_PER_POINT[frame.dimension - 1];
     let remedy = "use larger cells or fewer points a cell";
     let available = available_memory();
-    let short = available.is_some_and(|available| bytes > available);
-    let message = if points > MOST_POINTS || short {
-        let machine = match available {
-            Some(available) => format!(", and {} are free", amount(available)),
-            None => String::new(),
-        };
+    let message = if points > MOST_POINTS {
         format!(
-            "the bodies would have {points:.2e} material points, which need about {} of memory{machine}; at most 2^31 points are possible: {remedy}",
+            "the bodies would have {points:.2e} material points, which need about {} of memory; at most 2^31 points have numbers: {remedy}",
             amount(bytes)
         )
+    } else if let Some(available) = available.filter(|available| bytes > *available) {
+        format!(
+            "the bodies would have {points:.2e} material points, which need about {} of memory, and {} are free: {remedy}",
+            amount(bytes),
+            amount(available)
+        )
     } else if uncountable {
-        format!("a body spans more than 1e10 possible points, too many to look at: {remedy}")
+        format!(
+            "a body spans more than {MOST_CANDIDATES:e} places of its lattice, too many to look at: {remedy}"
+        )
     } else {
         return;
     };

@@ -44,7 +44,8 @@ impl Geometry for Ball {
 
     /// A sphere if the centre is on the axis, a torus if the disk does not touch it.
     fn revolved(&self) -> Option<f64> {
-        let (x, r) = (self.center[0], self.radius);
+        let &[x, _] = &self.center[..] else { return None };
+        let r = self.radius;
         if x == 0.0 {
             Some(4.0 / 3.0 * PI * r * r * r)
         } else if x >= r {

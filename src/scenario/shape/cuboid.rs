@@ -2,6 +2,7 @@
 
 use super::{Bounds, Geometry};
 use crate::input::{Reader, Unit};
+use crate::scenario::check::shown;
 use std::f64::consts::PI;
 
 /// All places between two corners.
@@ -21,9 +22,10 @@ impl Geometry for Cuboid {
         let (min, max) = (min?, max?);
         for axis in 0..dimension {
             if min[axis] >= max[axis] {
-                let (axis, min, max) = (["x", "y", "z"][axis], min[axis], max[axis]);
+                let key = format!("max[{axis}]");
+                let (axis, min, max) = (["x", "y", "z"][axis], shown(min[axis]), shown(max[axis]));
                 reader.problem(
-                    "max",
+                    &key,
                     format!("along {axis} the box ends at {max} m, which is not above its start {min} m: make max larger than min"),
                 );
                 return None;
@@ -46,7 +48,8 @@ impl Geometry for Cuboid {
 
     /// π (r_max² − r_min²) height.
     fn revolved(&self) -> Option<f64> {
-        let (inner, outer) = (self.min[0].max(0.0), self.max[0].max(0.0));
-        Some(PI * (outer - inner) * (outer + inner) * (self.max[1] - self.min[1]))
+        let (&[inner, low], &[outer, high]) = (&self.min[..], &self.max[..]) else { return None };
+        let (inner, outer) = (inner.max(0.0), outer.max(0.0));
+        Some(PI * (outer - inner) * (outer + inner) * (high - low))
     }
 }

@@ -1,6 +1,6 @@
 //! A shape with holes.
 
-use super::{Bounds, Geometry, Shape};
+use super::{Bounds, Geometry, Shape, lie_apart};
 use crate::input::Reader;
 
 /// All places of one shape that are in none of several others.
@@ -35,8 +35,26 @@ impl Geometry for Difference {
         self.of.bounds()
     }
 
-    /// Unknown: what is cut away may stick out.
+    /// What is left, where separate holes are cut out of a box and do not stick out.
     fn measure(&self) -> Option<f64> {
-        None
+        let cut: Option<f64> = self.minus.iter().map(Shape::measure).sum();
+        if self.has_plain_holes() { Some(self.of.measure()? - cut?) } else { None }
+    }
+
+    fn revolved(&self) -> Option<f64> {
+        let cut: Option<f64> = self.minus.iter().map(Shape::revolved).sum();
+        if self.has_plain_holes() { Some(self.of.revolved()? - cut?) } else { None }
+    }
+}
+
+impl Difference {
+    fn has_plain_holes(&self) -> bool {
+        let outer = self.of.bounds();
+        let inside = |hole: &Shape| {
+            let hole = hole.bounds();
+            let axes = 0..outer.min.len();
+            axes.into_iter().all(|k| outer.min[k] <= hole.min[k] && hole.max[k] <= outer.max[k])
+        };
+        matches!(*self.of, Shape::Cuboid(_)) && self.minus.iter().all(inside) && lie_apart(&self.minus)
     }
 }

@@ -85,3 +85,16 @@ shapes! {
     "union" => union::Union,
     "difference" => difference::Difference,
 }
+
+/// Whether the boxes around several shapes have no inner point in common; not looked at if there are very many.
+fn lie_apart(shapes: &[Shape]) -> bool {
+    let bounds: Vec<Bounds> = shapes.iter().map(Shape::bounds).collect();
+    let apart = |a: &Bounds, b: &Bounds| {
+        (0..a.min.len()).any(|axis| a.max[axis] <= b.min[axis] || b.max[axis] <= a.min[axis])
+    };
+    bounds.len() <= 1000
+        && (0..bounds.len()).all(|i| bounds[..i].iter().all(|other| apart(other, &bounds[i])))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,6 @@
 //! Several shapes together.
 
-use super::{Bounds, Geometry, Shape};
+use super::{Bounds, Geometry, Shape, lie_apart};
 use crate::input::Reader;
 
 /// All places that are inside at least one of several shapes.
@@ -35,12 +35,12 @@ impl Geometry for Union {
         })
     }
 
-    /// Known only if there is one shape: shapes may overlap.
+    /// The sum, where the shapes lie apart.
     fn measure(&self) -> Option<f64> {
-        if let [shape] = &self.shapes[..] { shape.measure() } else { None }
+        lie_apart(&self.shapes).then(|| self.shapes.iter().map(Shape::measure).sum())?
     }
 
     fn revolved(&self) -> Option<f64> {
-        if let [shape] = &self.shapes[..] { shape.revolved() } else { None }
+        lie_apart(&self.shapes).then(|| self.shapes.iter().map(Shape::revolved).sum())?
     }
 }

@@ -1,0 +1,287 @@
+//! What good scenarios mean, field by field.
+
+use mpm::boundary::ConditionChoice;
+use mpm::input::{Expression, Variables};
+use mpm::material::{LawChoice, Plane};
+use mpm::scenario::{
+    LoadKind, Loaded, ProbeTarget, Region, Scheme, Side, StepRule, body_points, load, parse,
+};
+use std::path::Path;
+
+fn good(name: &str) -> Loaded {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/good_scenarios");
+    load(&folder.join(name), &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn at(x: f64, y: f64, t: f64) -> Variables {
+    Variables {
+        position: [x, y, 0.0],
+        time: t,
+    }
+}
+
+#[test]
+fn the_bar_is_read_field_by_field() {
+    let Loaded {
+        scenario,
+        resolved_toml,
+        warnings,
+    } = good("bar.toml");
+    assert!(warnings.is_empty(), "{warnings:?}");
+    assert!(resolved_toml.contains("# exactly one law, by its name"));
+    assert_eq!(scenario.title, "Axial vibration of an elastic bar");
+    assert_eq!((scenario.dimension, scenario.plane), (1, Plane::Strain));
+    assert_eq!(
+        (scenario.end, scenario.step),
+        (100.0, StepRule::Courant(0.1))
+    );
+    assert_eq!(
+        (&scenario.grid.min[..], &scenario.grid.max[..]),
+        (&[0.0][..], &[25.0][..])
+    );
+    assert_eq!(
+        (scenario.grid.cell_size, &scenario.grid.cells[..]),
+        (1.0, &[25][..])
+    );
+    assert_eq!(scenario.method.basis.name(), "linear");
+    assert_eq!(scenario.method.transfer.name(), "flip");
+    assert_eq!(scenario.method.update, Scheme::ModifiedUpdateStressLast);
+    let [material] = &scenario.materials[..] else {
+        panic!("one material")
+    };
+    assert_eq!((&material.name[..], material.density), ("bar", 1.0));
+    let LawChoice::LinearElastic(law) = material.law else {
+        panic!("{:?}", material.law)
+    };
+    assert_eq!(
+        (law.elasticity.youngs_modulus, law.elasticity.poissons_ratio),
+        (100.0, 0.0)
+    );
+    let [body] = &scenario.bodies[..] else {
+        panic!("one body")
+    };
+    assert_eq!(
+        (&body.name[..], body.material, &body.particles_per_cell[..]),
+        ("bar", 0, &[1][..])
+    );
+    let speed = 0.1 * (std::f64::consts::PI * 12.5 / 50.0).sin();
+    approx::assert_relative_eq!(
+        body.velocity[0].value(&at(12.5, 0.0, 0.0)),
+        speed,
+        max_relative = 1e-15
+    );
+    let points = body_points(&scenario, 0);
+    let expected: Vec<_> = (0..25).map(|k| [f64::from(k) + 0.5, 0.0, 0.0]).collect();
+    assert_eq!(
+        (points.positions.clone(), points.volume(7)),
+        (expected, 1.0)
+    );
+    let [boundary] = &scenario.boundaries[..] else {
+        panic!("one boundary")
+    };
+    assert_eq!(
+        (&boundary.name[..], boundary.condition.name()),
+        ("wall", "fixed")
+    );
+    assert_eq!(
+        boundary.on,
+        Region::Side(Side {
+            axis: 0,
+            upper: false
+        })
+    );
+    assert!(scenario.loads.is_empty());
+    assert_eq!((&scenario.gravity[..], scenario.damping), (&[0.0][..], 0.0));
+    assert_eq!(scenario.output.every, 0.1);
+    let [probe] = &scenario.probes[..] else {
+        panic!("one probe")
+    };
+    assert_eq!((&probe.name[..], probe.body), ("second", 0));
+    assert_eq!(probe.target, ProbeTarget::Particle(1));
+}
+
+#[test]
+fn the_plate_is_read_with_its_boundaries_and_loads() {
+    let Loaded {
+        scenario, warnings, ..
+    } = good("plate.toml");
+    assert!(warnings.is_empty(), "{warnings:?}");
+    assert_eq!(
+        (scenario.plane, scenario.step),
+        (Plane::Stress, StepRule::Fixed(1e-6))
+    );
+    assert_eq!(
+        (&scenario.gravity[..], scenario.damping),
+        (&[0.0, -9.81][..], 100.0)
+    );
+    assert_eq!(scenario.grid.cells, [20, 20]);
+    assert_eq!(scenario.materials[1].name, "foam");
+    assert_eq!(scenario.bodies[1].material, 1);
+    assert_eq!(scenario.bodies[0].particles_per_cell, [2, 3]);
+    approx::assert_relative_eq!(
+        scenario.bodies[0].velocity[1].value(&at(0.2, 0.0, 0.0)),
+        1e-3,
+        max_relative = 1e-14
+    );
+    let [floor, grip, rail, stop] = &scenario.boundaries[..] else {
+        panic!("four boundaries")
+    };
+    let ConditionChoice::Roller(roller) = &floor.condition else {
+        panic!("{floor:?}")
+    };
+    assert_eq!(roller.normal, 1);
+    let ConditionChoice::Driven(driven) = &grip.condition else {
+        panic!("{grip:?}")
+    };
+    assert_eq!(driven.velocity[0], None);
+    let half = driven.velocity[1]
+        .as_ref()
+        .map(|speed: &Expression| speed.value(&at(0.0, 0.0, 0.05)));
+    approx::assert_relative_eq!(half.unwrap_or(0.0), 1e-3, max_relative = 1e-14);
+    let Region::Box { min, max } = &rail.on else {
+        panic!("{rail:?}")
+    };
+    assert_eq!(min[0], f64::NEG_INFINITY);
+    assert!(
+        max[0] > 0.0 && max[0] < 1e-9,
+        "the box holds its surface: {max:?}"
+    );
+    let ConditionChoice::Wall(wall) = &stop.condition else {
+        panic!("{stop:?}")
+    };
+    assert_eq!(
+        wall.side,
+        Side {
+            axis: 0,
+            upper: true
+        }
+    );
+    let [pull, force, pressure] = &scenario.loads[..] else {
+        panic!("three loads")
+    };
+    assert_eq!(
+        (&pull.name[..], &force.name[..], &pressure.name[..]),
+        ("pull", "load2", "load3")
+    );
+    let side = Side {
+        axis: 0,
+        upper: true,
+    };
+    assert_eq!(
+        pull.kind,
+        LoadKind::Traction {
+            traction: vec![1e6, 0.0],
+            side
+        }
+    );
+    assert_eq!(
+        pull.factor
+            .as_ref()
+            .map(|factor| factor.value(&at(0.0, 0.0, 0.05))),
+        Some(0.5)
+    );
+    assert_eq!(
+        (force.body, &force.kind),
+        (1, &LoadKind::Force(vec![14.43, 0.0]))
+    );
+    let side = Side {
+        axis: 0,
+        upper: false,
+    };
+    assert_eq!(
+        pressure.kind,
+        LoadKind::Pressure {
+            pressure: 2000.0,
+            side
+        }
+    );
+    assert_eq!(scenario.output.every, 0.01);
+    assert_eq!(scenario.probes[0].target, ProbeTarget::Near(vec![0.5, 0.5]));
+}
+
+#[test]
+fn what_is_left_out_has_its_default() {
+    let scenario = good("column.toml").scenario;
+    assert_eq!(scenario.title, "column");
+    assert_eq!(scenario.method.basis.name(), "quadratic");
+    assert_eq!(scenario.method.transfer.name(), "apic");
+    assert_eq!(scenario.method.update, Scheme::UpdateStressLast);
+    assert_eq!(scenario.bodies[0].particles_per_cell, [2, 2, 2]);
+    assert_eq!(
+        scenario.bodies[0].velocity[2].value(&at(1.0, 1.0, 0.0)),
+        0.0
+    );
+    assert_eq!(scenario.output.every, 1.0 / 200.0);
+}
+
+#[test]
+fn a_disk_on_the_axis_is_a_sphere() {
+    let scenario = good("sphere.toml").scenario;
+    let points = body_points(&scenario, 0);
+    let volume: f64 = (0..points.positions.len())
+        .map(|index| points.volume(index))
+        .sum();
+    let exact = 4.0 / 3.0 * std::f64::consts::PI * 0.125;
+    approx::assert_relative_eq!(volume, exact, max_relative = 1e-12);
+    assert!(points.positions.iter().all(|at| at[0] > 0.0));
+}
+
+#[test]
+fn an_override_replaces_a_value() {
+    let text = std::fs::read_to_string(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/good_scenarios/bar.toml"),
+    )
+    .expect("readable");
+    let settings = [
+        "time.courant=0.3".to_string(),
+        "method.transfer=\"pic\"".to_string(),
+    ];
+    let loaded = parse("bar", &text, &settings).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(loaded.scenario.step, StepRule::Courant(0.3));
+    assert_eq!(loaded.scenario.method.transfer.name(), "pic");
+    assert!(loaded.resolved_toml.contains("0.3") && loaded.resolved_toml.contains("# or step"));
+    let wrong = parse("bar", &text, &["time.curant=0.3".to_string()]).expect_err("misspelt");
+    assert!(wrong.to_string().contains("courant"), "{wrong}");
+}
+
+#[test]
+fn an_unused_material_and_a_far_probe_are_warned_about() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/good_scenarios");
+    let text = std::fs::read_to_string(folder.join("column.toml")).expect("readable")
+        + "\n[material.spare]\ndensity = 1\nhencky = { youngs_modulus = 1, poissons_ratio = 0 }\n"
+        + "\n[[probe]]\nname = \"far\"\nbody = \"column\"\nnear = [9, 9, 9]\n";
+    let warnings = parse("column", &text, &[])
+        .unwrap_or_else(|error| panic!("{error}"))
+        .warnings;
+    assert!(
+        warnings
+            .iter()
+            .any(|warning| warning.contains("material.spare")),
+        "{warnings:?}"
+    );
+    assert!(
+        warnings
+            .iter()
+            .any(|warning| warning.contains("probe[0].near")),
+        "{warnings:?}"
+    );
+}
+
+#[test]
+fn a_1d_material_that_would_contract_is_warned_about_unless_the_plane_is_given() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/good_scenarios");
+    let text = std::fs::read_to_string(folder.join("bar.toml")).expect("readable");
+    let warnings = |settings: &[&str]| {
+        let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+        parse("bar", &text, &settings)
+            .unwrap_or_else(|error| panic!("{error}"))
+            .warnings
+    };
+    let ratio = "material.bar.linear_elastic.poissons_ratio=0.3";
+    let [warning] = &warnings(&[ratio])[..] else {
+        panic!("one warning")
+    };
+    assert!(warning.contains("plane = \"stress\""), "{warning}");
+    assert!(warnings(&[ratio, "plane=\"stress\""]).is_empty());
+    assert!(warnings(&[ratio, "plane=\"strain\""]).is_empty());
+}
