@@ -3,12 +3,13 @@
 //! Names become types here, once; below this file nothing knows a path or a name.
 
 use crate::basis::{Basis, BasisVisitor};
+use crate::grid::Geometry;
 use crate::input::Variables;
 use crate::material::Plane;
 use crate::math::{Vector, packed_len};
 use crate::observe::{BodyTable, EnergyTable, Observer, ProbeTable, ReactionTable, Sink, View};
 use crate::scenario::{PointSet, body_points, LoadKind, LoadSpec, ProbeTarget, Region, Scenario};
-use crate::solver::{Account, Fault, Load, LoadForce, Mpm, Setup, Solver, TimeStep};
+use crate::solver::{Account, Fault, Kernels, Load, LoadForce, Mpm, Setup, Solver, Stencils, TimeStep};
 use crate::state::{Body, Particles, State};
 use crate::transfer::{Transfer, TransferVisitor};
 use serde::Serialize;
@@ -173,7 +174,7 @@ pub fn build<const D: usize>(scenario: &Scenario) -> Scene<D> {
     let bodies = (0..scenario.bodies.len()).map(|b| build_body(scenario, b, &sets[b])).collect();
     let state = State { time: 0.0, step: 0, bodies };
     let observers = observers(scenario, &state, &sets);
-    let solver = scenario.method.basis.visit(WithBasis { scenario, state: &state, sets: &sets });
+    let solver = Box::new(build_solver(scenario, &state, &sets));
     Scene { state, solver, observers }
 }
 
@@ -238,11 +239,10 @@ fn observers<const D: usize>(scenario: &Scenario, state: &State<D>, sets: &[Poin
 struct WithBasis<'a, const D: usize> {
     scenario: &'a Scenario,
     state: &'a State<D>,
-    sets: &'a [PointSet],
 }
 
 impl<const D: usize> BasisVisitor for WithBasis<'_, D> {
-    type Output = Box<dyn Solver<D>>;
+    type Output = Method<D>;
 
     fn visit<const N: usize, B: Basis<N>>(self, basis: B) -> Self::Output {
         self.scenario.method.transfer.visit(WithTransfer::<D, N, B> { scene: self, basis })
@@ -255,28 +255,46 @@ struct WithTransfer<'a, const D: usize, const N: usize, B> {
 }
 
 impl<const D: usize, const N: usize, B: Basis<N>> TransferVisitor for WithTransfer<'_, D, N, B> {
-    type Output = Box<dyn Solver<D>>;
+    type Output = Method<D>;
 
     fn visit<T: Transfer>(self, transfer: T) -> Self::Output {
-        let WithBasis { scenario, state, sets } = self.scene;
-        let grid = &scenario.grid;
-        let vector = |numbers: &[f64]| Vector::from_fn(|a, _| numbers[a]);
-        let setup = Setup {
-            min: vector(&grid.min),
-            cell_size: grid.cell_size,
-            cells: std::array::from_fn(|a| grid.cells[a]),
-            basis: self.basis,
-            transfer,
-            scheme: scenario.method.update,
-            gravity: vector(&scenario.gravity),
-            damping: scenario.damping,
-            boundaries: scenario.boundaries.iter().map(|spec| spec.condition.build()).collect(),
-            boundary_boxes: scenario.boundaries.iter().map(|spec| region(&spec.on, grid)).collect(),
-            loads: scenario.loads.iter().map(|spec| load(spec, state, sets)).collect(),
-            parallel: state.point_count() >= PARALLEL_FROM && rayon::current_num_threads() > 1,
+        let WithBasis { scenario, state } = self.scene;
+        let (basis, grid) = (self.basis, &scenario.grid);
+        let min = Vector::from_fn(|a, _| grid.min[a]);
+        let cells: [i32; D] = std::array::from_fn(|a| grid.cells[a]);
+        let of_body = |body: &Body<D>| {
+            std::array::from_fn(|a| basis.for_spacing(body.spacing[a] / grid.cell_size))
         };
-        Box::new(Mpm::<D, N, B, T>::new(setup, state))
+        Method {
+            geometry: Geometry::new(min, grid.cell_size, cells, &basis),
+            kernels: Box::new(Stencils::<D, N, B, T> {
+                nodes: basis,
+                basis: state.bodies.iter().map(of_body).collect(),
+                transfer,
+            }),
+        }
     }
+}
+
+/// What depends on the types of the basis and the transfer.
+struct Method<const D: usize> {
+    geometry: Geometry<D>,
+    kernels: Box<dyn Kernels<D>>,
+}
+
+fn build_solver<const D: usize>(scenario: &Scenario, state: &State<D>, sets: &[PointSet]) -> Mpm<D> {
+    let method = scenario.method.basis.visit(WithBasis { scenario, state });
+    Mpm::new(Setup {
+        geometry: method.geometry,
+        kernels: method.kernels,
+        scheme: scenario.method.update,
+        gravity: Vector::from_fn(|a, _| scenario.gravity[a]),
+        damping: scenario.damping,
+        boundaries: scenario.boundaries.iter().map(|spec| spec.condition.build()).collect(),
+        boundary_boxes: scenario.boundaries.iter().map(|spec| region(&spec.on, &scenario.grid)).collect(),
+        loads: scenario.loads.iter().map(|spec| load(spec, state, sets)).collect(),
+        parallel: state.point_count() >= PARALLEL_FROM && rayon::current_num_threads() > 1,
+    })
 }
 
 /// The box of positions of a region of nodes.

@@ -42,21 +42,14 @@ impl<const D: usize> Geometry<D> {
         }
     }
 
-    /// Position of a node, m.
-    pub fn node_position<const N: usize, B: Basis<N>>(
-        &self,
-        basis: &B,
-        node: &[i32; D],
-    ) -> Vector<D> {
-        Vector::from_fn(|a, _| {
-            self.min[a] + self.cell_size * basis.position(node[a], self.cells[a])
-        })
-    }
-
     /// A position in cells from the lower corner.
     #[inline(always)]
     pub fn in_cells(&self, position: &Vector<D>, inverse: f64) -> [f64; D] {
-        std::array::from_fn(|a| (position[a] - self.min[a]) * inverse)
+        let mut x = [0.0; D];
+        for a in 0..D {
+            x[a] = (position[a] - self.min[a]) * inverse;
+        }
+        x
     }
 }
 

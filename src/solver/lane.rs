@@ -55,16 +55,19 @@ impl Lane for Portable {
     }
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
+        let (a, b) = (self.0, other.0);
+        Self([a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]])
     }
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] * other.0[i]))
+        let (a, b) = (self.0, other.0);
+        Self([a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]])
     }
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         // not f64::mul_add: without the instruction it is a slow library call
-        Self(std::array::from_fn(|i| self.0[i] * b.0[i] + c.0[i]))
+        let (a, b, c) = (self.0, b.0, c.0);
+        Self([a[0] * b[0] + c[0], a[1] * b[1] + c[1], a[2] * b[2] + c[2], a[3] * b[3] + c[3]])
     }
 }
 

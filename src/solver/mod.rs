@@ -2,6 +2,7 @@
 
 mod disjoint;
 mod integrate;
+mod kernels;
 pub mod lane;
 mod ledger;
 mod loads;
@@ -11,6 +12,7 @@ mod sort;
 pub mod stencil;
 mod time_step;
 
+pub use kernels::{Kernels, Stencils};
 pub use ledger::{Account, GridSums, Ledger, Stored};
 pub use loads::{Load, LoadForce, Loads};
 pub use mpm::{Mpm, Setup};

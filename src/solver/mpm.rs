@@ -6,26 +6,19 @@ use super::loads::{Load, Loads};
 use super::sort::Scratch;
 use super::stencil::{Gathered, Sources};
 use super::{Fault, Limit, Solver};
-use crate::basis::Basis;
 use crate::boundary::Condition;
 use crate::grid::{Blocks, Geometry, Node, block_edge};
 use crate::math::{Sum, Vector};
 use crate::scenario::Scheme;
 use crate::state::State;
-use crate::transfer::Transfer;
+use super::kernels::Kernels;
 
 /// Everything that a solver is told before a run.
-pub struct Setup<const D: usize, B, T> {
-    /// Lower corner of the grid, m.
-    pub min: Vector<D>,
-    /// Edge of a cell, m.
-    pub cell_size: f64,
-    /// Cells along each axis.
-    pub cells: [i32; D],
-    /// The basis.
-    pub basis: B,
-    /// The transfer.
-    pub transfer: T,
+pub struct Setup<const D: usize> {
+    /// The grid.
+    pub geometry: Geometry<D>,
+    /// The basis and the transfer.
+    pub kernels: Box<dyn Kernels<D>>,
     /// When stresses are updated.
     pub scheme: Scheme,
     /// Acceleration of gravity, m/s².
@@ -42,13 +35,10 @@ pub struct Setup<const D: usize, B, T> {
     pub parallel: bool,
 }
 
-/// The solver for `D` dimensions, a basis of `N` nodes an axis, and a transfer.
-pub struct Mpm<const D: usize, const N: usize, B, T> {
+/// The solver for `D` dimensions.
+pub struct Mpm<const D: usize> {
     pub(super) geometry: Geometry<D>,
-    /// Basis of each body along each axis.
-    pub(super) basis: Vec<[B; D]>,
-    pub(super) node_basis: B,
-    pub(super) transfer: T,
+    pub(super) kernels: Box<dyn Kernels<D>>,
     pub(super) scheme: Scheme,
     pub(super) edge: i32,
     pub(super) gravity: Vector<D>,
@@ -79,33 +69,27 @@ pub struct Mpm<const D: usize, const N: usize, B, T> {
 /// Steps between two looks at how stiff the points have become.
 const STIFFNESS_INTERVAL: u64 = 16;
 
-impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
-    /// A solver for the given bodies.
-    pub fn new(setup: Setup<D, B, T>, state: &State<D>) -> Self {
-        let geometry = Geometry::new(setup.min, setup.cell_size, setup.cells, &setup.basis);
-        let basis = state
-            .bodies
-            .iter()
-            .map(|body| std::array::from_fn(|a| setup.basis.for_spacing(body.spacing[a] / setup.cell_size)))
-            .collect();
+impl<const D: usize> Mpm<D> {
+    /// A solver for the given setup.
+    pub fn new(setup: Setup<D>) -> Self {
+        let geometry = setup.geometry;
         let boundary_nodes = setup
             .boundary_boxes
             .iter()
             .map(|(min, max)| {
                 std::array::from_fn(|a| {
-                    let low = (min[a] - setup.min[a]) / setup.cell_size - 1e-9;
-                    let high = (max[a] - setup.min[a]) / setup.cell_size + 1e-9;
-                    nodes_between(&setup.basis, setup.cells[a], low, high)
+                    let low = (min[a] - geometry.min[a]) / geometry.cell_size - 1e-9;
+                    let high = (max[a] - geometry.min[a]) / geometry.cell_size + 1e-9;
+                    let position = |index| setup.kernels.position(index, geometry.cells[a]);
+                    nodes_between(position, geometry.counts[a], low, high)
                 })
             })
             .collect();
         Self {
+            edge: block_edge(D, setup.kernels.nodes()),
             geometry,
-            basis,
-            node_basis: setup.basis,
-            transfer: setup.transfer,
+            kernels: setup.kernels,
             scheme: setup.scheme,
-            edge: block_edge(D, N),
             gravity: setup.gravity,
             damping: setup.damping,
             boundaries: setup.boundaries,
@@ -124,7 +108,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
             ledger: Ledger::default(),
             needs_sort: true,
             parallel: setup.parallel,
-            wide: super::passes::wide_instructions(),
+            wide: super::kernels::wide_instructions(),
             last_dt: 0.0,
             wave_speed: 0.0,
             speed: 0.0,
@@ -153,7 +137,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
             boundaries: &self.boundaries,
             gravity: self.gravity,
             damping: self.damping,
-            ratio: self.transfer.ratio(),
+            ratio: self.kernels.ratio(),
             time: state.time,
             dt,
         };
@@ -191,18 +175,6 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
         );
     }
 
-    /// Σ N_i (x_i − x)² along each axis, m², at a position.
-    fn inertia(&self, body: usize, position: &Vector<D>) -> [f64; D] {
-        let h = self.geometry.cell_size;
-        let x = self.geometry.in_cells(position, 1.0 / h);
-        std::array::from_fn(|a| {
-            let (basis, cells) = (&self.basis[body][a], self.geometry.cells[a]);
-            let axis = basis.axis(x[a], cells);
-            let arm = |i: usize| basis.position(axis.first + i as i32, cells) - x[a];
-            (0..N).map(|i| axis.weight[i] * arm(i) * arm(i)).sum::<f64>() * h * h
-        })
-    }
-
     fn sources(&self) -> Sources {
         Sources {
             main: self.main.as_ptr(),
@@ -225,7 +197,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
     }
 }
 
-impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Solver<D> for Mpm<D, N, B, T> {
+impl<const D: usize> Solver<D> for Mpm<D> {
     fn start(&mut self, state: &mut State<D>) -> Result<(), Fault> {
         self.sort(state)?;
         let stored = self.stored(state);
@@ -314,8 +286,10 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Solver<D> for Mpm
                 let (x, v) = (&p.position[i], &p.velocity[i]);
                 sum.add(p.mass[i] * (x[a] * v[b] - x[b] * v[a]));
                 if let Some(affine) = p.affine.get(i) {
-                    let inertia = self.inertia(body, x);
-                    sum.add(p.mass[i] * (inertia[a] * affine[(b, a)] - inertia[b] * affine[(a, b)]));
+                    let cells = self.geometry.in_cells(x, 1.0 / self.geometry.cell_size);
+                    let inertia = self.kernels.inertia(body, &cells, &self.geometry.cells);
+                    let mass = p.mass[i] * self.geometry.cell_size.powi(2);
+                    sum.add(mass * (inertia[a] * affine[(b, a)] - inertia[b] * affine[(a, b)]));
                 }
             }
             sum.value()
@@ -328,19 +302,19 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Solver<D> for Mpm
     }
 
     fn bytes_per_node(&self) -> usize {
-        let arrays = 1 + usize::from(T::CHANGE) + usize::from(self.has_second()) + usize::from(!self.loads.is_empty());
+        let arrays = 1 + usize::from(self.kernels.change()) + usize::from(self.has_second()) + usize::from(!self.loads.is_empty());
         arrays * size_of::<Node>()
     }
 }
 
 /// First and last node of an axis whose position, in cells, lies in `low ..= high`; an empty range if there is none.
-fn nodes_between<const N: usize, B: Basis<N>>(basis: &B, cells: i32, low: f64, high: f64) -> (i32, i32) {
-    // positions ascend with the number, about one a cell: search by halving
+fn nodes_between(position: impl Fn(i32) -> f64, count: i32, low: f64, high: f64) -> (i32, i32) {
+    // positions ascend with the number: search by halving
     let find = |beyond: &dyn Fn(f64) -> bool| {
-        let (mut first, mut last) = (0, basis.count(cells));
+        let (mut first, mut last) = (0, count);
         while first < last {
             let middle = first + (last - first) / 2;
-            if beyond(basis.position(middle, cells)) {
+            if beyond(position(middle)) {
                 last = middle;
             } else {
                 first = middle + 1;

@@ -1,30 +1,13 @@
 //! Passes over the points, block by block: on one thread or several, with wide instructions or without, always with the same
 //! order of additions at every node.
 
-use super::lane::Portable;
+use super::kernels::Context;
 use super::mpm::Mpm;
-use super::stencil::{
-    CHUNK, Columns, Gathered, Pass, Rates, Reach, Scattered, Sources, Tile, Wanted, gather, scatter, scatter_forces,
-};
-use crate::basis::Basis;
+use super::stencil::{CHUNK, Columns, Gathered, Rates, Reach, Scattered, Sources, Tile, Wanted};
 use crate::grid::{Block, Node};
-use crate::math::Vector;
 use crate::material::{Increments, MaterialPoints, StressMut};
 use crate::state::State;
-use crate::transfer::Transfer;
 use rayon::prelude::*;
-
-/// Whether this processor has the wide instructions that the fast kernels use.
-pub fn wide_instructions() -> bool {
-    #[cfg(target_arch = "x86_64")]
-    {
-        std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    {
-        false
-    }
-}
 
 /// Points that a task should have at least, so that handing it to a thread costs little.
 const POINTS_PER_TASK: usize = 1024;
@@ -58,29 +41,9 @@ fn for_each(count: usize, points_each: usize, parallel: bool, work: impl Fn(usiz
     }
 }
 
-/// Defines a function for one block that picks the fast or the portable version of a kernel.
-macro_rules! with_lanes {
-    ($wide:expr, $kernel:ident($($argument:expr),* $(,)?)) => {{
-        #[cfg(target_arch = "x86_64")]
-        if $wide {
-            // SAFETY: the instructions were found (`wide_instructions`); the rest as the caller says
-            unsafe { wide::$kernel::<D, N, B, T>($($argument),*) }
-        } else {
-            // SAFETY: as the caller says
-            unsafe { $kernel::<Portable, D, N, B, T>($($argument),*) }
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            let _ = $wide;
-            // SAFETY: as the caller says
-            unsafe { $kernel::<Portable, D, N, B, T>($($argument),*) }
-        }
-    }};
-}
-
-impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
-    fn pass(&self, body: usize, dt: f64) -> Pass<'_, D, B, T> {
-        Pass { geometry: &self.geometry, basis: self.basis[body], transfer: self.transfer, dt }
+impl<const D: usize> Mpm<D> {
+    fn context(&self, body: usize, dt: f64) -> Context<'_, D> {
+        Context { geometry: &self.geometry, body, edge: self.edge, dt, wide: self.wide }
     }
 
     /// Zeroes the nodes that the step will add to.
@@ -126,19 +89,15 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
     ) {
         for (index, body) in state.bodies.iter_mut().enumerate() {
             let columns = Columns::new(&mut body.particles);
-            let pass = self.pass(index, dt);
+            let context = self.context(index, dt);
             let own = &self.blocks.bodies[index];
             let points_each = body.particles.len() / own.blocks.len().max(1);
             for colour in &own.colours {
                 for_each(colour.len(), points_each, self.parallel, |i| {
                     let (main, force) = (main, force);
                     let block = &own.blocks[colour[i] as usize];
-                    with_lanes!(
-                        self.wide,
-                        scatter(
-                            &pass, &columns, block, self.edge, what, { main }.0, { force }.0
-                        )
-                    );
+                    // SAFETY: blocks of one colour share no node and no row; the tile of a block is stored
+                    unsafe { self.kernels.scatter(&context, &columns, block, what, [{ main }.0, { force }.0]) };
                 });
             }
         }
@@ -155,7 +114,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
         for load in 0..loads.len() {
             let index = loads.body(load);
             let columns = Columns::new(&mut state.bodies[index].particles);
-            let pass = self.pass(index, dt);
+            let context = self.context(index, dt);
             let own = &self.blocks.bodies[index];
             for colour in &own.colours {
                 for_each(colour.len(), POINTS_PER_TASK / 4, self.parallel, |i| {
@@ -163,12 +122,8 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
                     let block = &own.blocks[colour[i] as usize];
                     let forces = loads.in_rows(load, block.points());
                     if !forces.is_empty() {
-                        with_lanes!(
-                            self.wide,
-                            scatter_forces(
-                                &pass, &columns, block, self.edge, { external }.0, forces
-                            )
-                        );
+                        // SAFETY: as for the points' momenta
+                        unsafe { self.kernels.scatter_forces(&context, &columns, block, { external }.0, forces) };
                     }
                 });
             }
@@ -219,15 +174,15 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
         for (index, body) in state.bodies.iter_mut().enumerate() {
             let columns = Columns::new(&mut body.particles);
             let material = &*body.material;
-            let pass = self.pass(index, dt);
+            let context = self.context(index, dt);
             let blocks = &self.blocks.bodies[index].blocks;
             let points_each = body.particles.len() / blocks.len().max(1);
-            let shift = std::array::from_fn(|a| self.basis[index][a].shift());
+            let shift = self.kernels.shift(index);
             results.clear();
             results.resize(blocks.len(), Gathered::NONE);
             let work = |block: &Block<D>| {
                 let from = from;
-                self.gather_block(&pass, &columns, block, &shift, material, what, &{ from }.0)
+                self.gather_block(&context, &columns, block, &shift, material, what, &{ from }.0)
             };
             if self.parallel && blocks.len() > 1 {
                 results
@@ -249,7 +204,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
     #[allow(clippy::too_many_arguments)]
     fn gather_block(
         &self,
-        pass: &Pass<'_, D, B, T>,
+        context: &Context<'_, D>,
         columns: &Columns<D>,
         block: &Block<D>,
         shift: &[f64; D],
@@ -257,19 +212,18 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
         what: Wanted,
         from: &Sources,
     ) -> Gathered {
-        let tile = Tile::new(block, self.edge, N);
+        let tile = Tile::new(block, self.edge, self.kernels.nodes());
         let reach = Reach::new(block.origin, self.edge, self.geometry.cells, *shift);
         let mut rates = Rates::zeros();
         let mut total = Gathered::NONE;
         let rows = block.points();
         for first in rows.clone().step_by(CHUNK) {
             let count = CHUNK.min(rows.end - first);
-            let gathered = with_lanes!(
-                self.wide,
-                gather(
-                    pass, columns, &tile, &reach, first..first + count, what, from, &mut rates
-                )
-            );
+            let end = first + count;
+            // SAFETY: blocks share no row, and nobody writes to the grid now
+            let gathered = unsafe {
+                self.kernels.gather(context, columns, &tile, &reach, first..end, what, from, &mut rates)
+            };
             total = total.and(gathered);
             if what.rate {
                 // SAFETY: these rows belong to this block alone
@@ -279,7 +233,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
                         rates: &rates.gradient[..count],
                         hoop_rates: &rates.hoop[..hoop_stretches.len()],
                         hoop_stretches,
-                        dt: pass.dt,
+                        dt: context.dt,
                     };
                     material.update(first..first + count, StressMut { plane, hoop }, &increments);
                 }
@@ -298,63 +252,6 @@ fn clear<const D: usize>(array: &mut [Node], rows: &[crate::grid::Row<D>], paral
     } else {
         for row in rows {
             array[row.start as usize..(row.start + row.len) as usize].fill(Node::default());
-        }
-    }
-}
-
-/// The kernels of `stencil`, compiled for wide instructions.
-#[cfg(target_arch = "x86_64")]
-mod wide {
-    use super::*;
-    use crate::solver::lane::Avx;
-
-    #[target_feature(enable = "avx2,fma")]
-    pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<'_, D, B, T>,
-        columns: &Columns<D>,
-        block: &Block<D>,
-        edge: i32,
-        what: Scattered,
-        main: *mut Node,
-        force: *mut Node,
-    ) {
-        // SAFETY: passed on to the caller
-        unsafe { super::scatter::<Avx, D, N, B, T>(pass, columns, block, edge, what, main, force) }
-    }
-
-    #[target_feature(enable = "avx2,fma")]
-    pub unsafe fn scatter_forces<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<'_, D, B, T>,
-        columns: &Columns<D>,
-        block: &Block<D>,
-        edge: i32,
-        nodes: *mut Node,
-        forces: &[(u32, Vector<D>)],
-    ) {
-        // SAFETY: passed on to the caller
-        unsafe { super::scatter_forces::<Avx, D, N, B, T>(pass, columns, block, edge, nodes, forces) }
-    }
-
-    #[target_feature(enable = "avx2,fma")]
-    #[allow(clippy::too_many_arguments)]
-    pub unsafe fn gather<
-        const D: usize,
-        const N: usize,
-        B: Basis<N>,
-        T: Transfer,
-    >(
-        pass: &Pass<'_, D, B, T>,
-        columns: &Columns<D>,
-        tile: &Tile<D>,
-        reach: &Reach<D>,
-        rows: std::ops::Range<usize>,
-        what: Wanted,
-        sources: &Sources,
-        rates: &mut Rates<D>,
-    ) -> Gathered {
-        // SAFETY: passed on to the caller
-        unsafe {
-            super::gather::<Avx, D, N, B, T>(pass, columns, tile, reach, rows, what, sources, rates)
         }
     }
 }

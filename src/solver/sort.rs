@@ -3,12 +3,11 @@
 use super::integrate::Constraint;
 use super::mpm::Mpm;
 use super::{Fault, Place};
-use crate::basis::Basis;
-use crate::grid::Row;
+use super::kernels::Kernels;
+use crate::grid::{Geometry, Row};
 use crate::math::Vector;
 use crate::reorder;
 use crate::state::{Body, State};
-use crate::transfer::Transfer;
 
 /// Memory that a sort needs, kept from one to the next.
 #[derive(Default)]
@@ -24,7 +23,7 @@ pub struct Scratch<const D: usize> {
     occupied: Vec<Vec<([i32; D], (u32, u32))>>,
 }
 
-impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
+impl<const D: usize> Mpm<D> {
     /// Sorts all bodies by block and lays the grid out around them.
     ///
     /// # Errors
@@ -54,10 +53,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
 
     fn block_of(&self, body: usize, position: &Vector<D>) -> [i32; D] {
         let x = self.geometry.in_cells(position, 1.0 / self.geometry.cell_size);
-        std::array::from_fn(|a| {
-            let first = self.basis[body][a].axis(x[a], self.geometry.cells[a]).first;
-            first.div_euclid(self.edge)
-        })
+        self.kernels.first(body, &x, &self.geometry.cells).map(|first| first.div_euclid(self.edge))
     }
 
     /// Sorts one body, or names the row of a point that has no place in the grid.
@@ -118,7 +114,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
     fn lay_out(&mut self) {
         let stored = self.blocks.stored;
         self.main.resize(stored, Default::default());
-        if T::CHANGE {
+        if self.kernels.change() {
             self.change.resize(stored, Default::default());
         }
         if self.has_second() {
@@ -139,7 +135,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
                     Constraint {
                         boundary,
                         offset,
-                        position: self.geometry.node_position(&self.node_basis, &node),
+                        position: node_position(&self.geometry, &*self.kernels, &node),
                         impulse: Vector::zeros(),
                     }
                 }));
@@ -168,6 +164,11 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Mpm<D, N, B, T> {
             Fault::NotFinite(place)
         }
     }
+}
+
+/// Position of a node, m.
+fn node_position<const D: usize>(g: &Geometry<D>, kernels: &dyn Kernels<D>, node: &[i32; D]) -> Vector<D> {
+    Vector::from_fn(|a, _| g.min[a] + g.cell_size * kernels.position(node[a], g.cells[a]))
 }
 
 /// The nodes of a row that lie in a box of node numbers, as offsets in the row.

@@ -75,11 +75,13 @@ impl<const D: usize> Tile<D> {
     /// Where a stencil that starts at node `first` lies in the tile.
     #[inline(always)]
     fn local(&self, first: [i32; D]) -> [usize; D] {
-        std::array::from_fn(|a| {
-            let t = first[a] - self.origin[a] + 1;
-            debug_assert!(t >= 0 && (D == 1 || (t as usize) < self.width));
-            t as usize
-        })
+        let mut t = [0; D];
+        for a in 0..D {
+            let local = first[a] - self.origin[a] + 1;
+            debug_assert!(local >= 0 && (D == 1 || (local as usize) < self.width));
+            t[a] = local as usize;
+        }
+        t
     }
 }
 
@@ -120,7 +122,7 @@ unsafe fn scatter_value<L: Lane, const D: usize, const N: usize>(
     w: &[[f64; N]; D],
     q: L,
 ) {
-    let last: [L; N] = std::array::from_fn(|k| L::splat(w[D - 1][k]));
+    let last = splats::<L, N>(&w[D - 1]);
     for_each_row!(tile, t, N, |at, i, j| {
         let row = match D {
             1 => q,
@@ -158,7 +160,7 @@ unsafe fn scatter_linear<L: Lane, const D: usize, const N: usize>(
             }
         }
         2 => {
-            let last: [L; N] = std::array::from_fn(|k| L::splat(w[1][k]));
+            let last = splats::<L, N>(&w[1]);
             for i in 0..N {
                 let at = tile.rows[t[0] + i] + t[1];
                 let wi = L::splat(w[0][i]);
@@ -173,15 +175,15 @@ unsafe fn scatter_linear<L: Lane, const D: usize, const N: usize>(
             }
         }
         _ => {
-            let plane: [[L; N]; N] = std::array::from_fn(|j| {
-                std::array::from_fn(|k| L::splat(w[1][j] * w[2][k]))
-            });
-            let slant: [[L; N]; N] = std::array::from_fn(|j| {
-                std::array::from_fn(|k| {
+            let mut plane = [[L::splat(0.0); N]; N];
+            let mut slant = plane;
+            for j in 0..N {
+                for k in 0..N {
+                    plane[j][k] = L::splat(w[1][j] * w[2][k]);
                     let first = x[1][j].mul(L::splat(w[2][k]));
-                    x[2][k].mul_add(L::splat(w[1][j]), first)
-                })
-            });
+                    slant[j][k] = x[2][k].mul_add(L::splat(w[1][j]), first);
+                }
+            }
             for i in 0..tile.n {
                 let wi = L::splat(w[0][i]);
                 for j in 0..N {
@@ -208,7 +210,7 @@ unsafe fn gather_value<L: Lane, const D: usize, const N: usize>(
     t: [usize; D],
     w: &[[f64; N]; D],
 ) -> L {
-    let last: [L; N] = std::array::from_fn(|k| L::splat(w[D - 1][k]));
+    let last = splats::<L, N>(&w[D - 1]);
     let mut sum = L::splat(0.0);
     for_each_row!(tile, t, N, |at, i, j| {
         let mut row = L::splat(0.0);
@@ -235,8 +237,8 @@ unsafe fn gather_linear<L: Lane, const D: usize, const N: usize>(
     g: &[[f64; N]; D],
 ) -> (L, [L; D]) {
     let zero = L::splat(0.0);
-    let last: [L; N] = std::array::from_fn(|k| L::splat(w[D - 1][k]));
-    let slope: [L; N] = std::array::from_fn(|k| L::splat(g[D - 1][k]));
+    let last = splats::<L, N>(&w[D - 1]);
+    let slope = splats::<L, N>(&g[D - 1]);
     // (value, slope along the last axis) of N nodes in a row
     let row = |at: usize| {
         let (mut value, mut change) = (zero, zero);
@@ -283,18 +285,33 @@ unsafe fn gather_linear<L: Lane, const D: usize, const N: usize>(
     (sum, gradient)
 }
 
+/// Each number in all parts of a lane.
+#[inline(always)]
+fn splats<L: Lane, const N: usize>(numbers: &[f64; N]) -> [L; N] {
+    let mut lanes = [L::splat(0.0); N];
+    for k in 0..N {
+        lanes[k] = L::splat(numbers[k]);
+    }
+    lanes
+}
+
 /// The first `D` numbers of a lane.
 #[inline(always)]
-fn vector<L: Lane, const D: usize>(lane: L) -> Vector<D> {
+fn vector<L: Lane, const D: usize>(lane: L) -> [f64; D] {
     let numbers = lane.array();
-    Vector::from_fn(|a, _| numbers[a])
+    let mut vector = [0.0; D];
+    vector.copy_from_slice(&numbers[..D]);
+    vector
 }
 
 /// A matrix from its columns.
 #[inline(always)]
-fn matrix<L: Lane, const D: usize>(columns: [L; D]) -> Matrix<D> {
-    let columns = columns.map(L::array);
-    Matrix::from_fn(|row, column| columns[column][row])
+fn matrix<L: Lane, const D: usize>(columns: &[L; D]) -> Matrix<D> {
+    let mut matrix = Matrix::<D>::zeros();
+    for a in 0..D {
+        matrix.data.0[a] = vector(columns[a]);
+    }
+    matrix
 }
 
 /// The columns of a body's points, shared by threads that work on disjoint rows.
@@ -385,13 +402,19 @@ impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
     {
         let inverse = 1.0 / self.geometry.cell_size;
         let x = self.geometry.in_cells(position, inverse);
-        let axes: [_; D] =
-            std::array::from_fn(|a| self.basis[a].axis(x[a], self.geometry.cells[a]));
-        let first = axes.map(|axis| axis.first);
+        let (mut first, mut weight, mut slope) = ([0; D], [[0.0; N]; D], [[0.0; N]; D]);
+        for a in 0..D {
+            let axis = self.basis[a].axis(x[a], self.geometry.cells[a]);
+            first[a] = axis.first;
+            weight[a] = axis.weight;
+            for i in 0..N {
+                slope[a][i] = axis.slope[i] * inverse;
+            }
+        }
         Stencil {
             at: tile.local(first),
-            weight: axes.map(|axis| axis.weight),
-            slope: axes.map(|axis| axis.slope.map(|slope| slope * inverse)),
+            weight,
+            slope,
             first,
             x,
         }
@@ -403,11 +426,14 @@ impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
     where
         B: Basis<N>,
     {
-        std::array::from_fn(|a| {
-            std::array::from_fn(|i| {
-                self.basis[a].position(s.first[a] + i as i32, self.geometry.cells[a]) - s.x[a]
-            })
-        })
+        let mut arms = [[0.0; N]; D];
+        for a in 0..D {
+            for i in 0..N {
+                let node = s.first[a] + i as i32;
+                arms[a][i] = self.basis[a].position(node, self.geometry.cells[a]) - s.x[a];
+            }
+        }
+        arms
     }
 
     /// The functions whose gathered velocities are the columns of APIC's C, per metre: N_i (x_i − x) / D with
@@ -420,12 +446,20 @@ impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
         if B::AFFINE_IS_SLOPE {
             return s.slope;
         }
-        let arms = self.arms(s);
-        std::array::from_fn(|a| {
-            let inertia: f64 = (0..N).map(|i| s.weight[a][i] * arms[a][i] * arms[a][i]).sum();
+        let mut weights = self.arms(s);
+        for a in 0..D {
+            let mut inertia = 0.0;
+            for i in 0..N {
+                let arm = weights[a][i];
+                weights[a][i] *= s.weight[a][i];
+                inertia += weights[a][i] * arm;
+            }
             let scale = 1.0 / (inertia.max(f64::MIN_POSITIVE) * self.geometry.cell_size);
-            std::array::from_fn(|i| s.weight[a][i] * arms[a][i] * scale)
-        })
+            for i in 0..N {
+                weights[a][i] *= scale;
+            }
+        }
+        weights
     }
 }
 
@@ -479,9 +513,10 @@ pub unsafe fn scatter<
             if T::AFFINE {
                 let arms = pass.arms(&s);
                 // SAFETY: as above
-                let affine = unsafe { *columns.affine.add(p) } * (mass * pass.geometry.cell_size);
+                let affine = unsafe { &*columns.affine.add(p) };
+                let scale = L::splat(mass * pass.geometry.cell_size);
                 for a in 0..D {
-                    let column = column::<L, D>(&affine, a);
+                    let column = lane::<L, D>(&affine.data.0[a]).mul(scale);
                     for i in 0..N {
                         columns_of_x[a][i] = column.mul(L::splat(s.weight[a][i] * arms[a][i]));
                     }
@@ -498,9 +533,9 @@ pub unsafe fn scatter<
                 )
             };
             let scale = if T::CHANGE { -volume } else { -volume * pass.dt };
-            let stress: Matrix<D> = unpack::<D>(stress) * scale;
+            let stress = unpack::<D>(stress);
             for a in 0..D {
-                let column = column::<L, D>(&stress, a);
+                let column = lane::<L, D>(&stress.data.0[a]).mul(L::splat(scale));
                 for i in 0..N {
                     let x = if T::CHANGE { &mut forces } else { &mut columns_of_x };
                     x[a][i] = column.mul_add(L::splat(s.slope[a][i]), x[a][i]);
@@ -551,13 +586,11 @@ unsafe fn add_point<L: Lane, const D: usize, const N: usize>(
     }
 }
 
-/// Column `a` of a matrix as a lane.
+/// A vector as a lane.
 #[inline(always)]
-fn column<L: Lane, const D: usize>(m: &Matrix<D>, a: usize) -> L {
+fn lane<L: Lane, const D: usize>(vector: &[f64; D]) -> L {
     let mut numbers = [0.0; 4];
-    for row in 0..D {
-        numbers[row] = m[(row, a)];
-    }
+    numbers[..D].copy_from_slice(vector);
     L::new(numbers)
 }
 
@@ -696,7 +729,7 @@ pub unsafe fn gather<
             if what.rate {
                 let from = if what.same { sources.main } else { sources.second };
                 let (value, gradient) = gather_linear::<L, D, N>(from, tile, t, w, &s.slope);
-                rates.gradient[p - first_row] = matrix::<L, D>(gradient);
+                rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
                 hoop_velocity = value.array()[0];
                 if what.same {
                     new = value;
@@ -705,7 +738,7 @@ pub unsafe fn gather<
             if what.velocity && T::AFFINE {
                 let g = pass.affine_weights(&s);
                 let (value, gradient) = gather_linear::<L, D, N>(sources.main, tile, t, w, &g);
-                *columns.affine.add(p) = matrix::<L, D>(gradient);
+                *columns.affine.add(p) = matrix::<L, D>(&gradient);
                 new = value;
             } else if !(what.rate && what.same) && (what.position || (what.velocity && (blend || !T::CHANGE))) {
                 new = gather_value::<L, D, N>(sources.main, tile, t, w);
@@ -717,21 +750,25 @@ pub unsafe fn gather<
             // SAFETY: as above
             unsafe { *columns.hoop_stretch.add(p) *= 1.0 + pass.dt * hoop };
         }
-        let new: Vector<D> = vector(new);
+        let new: [f64; D] = vector(new);
         if what.velocity {
             // SAFETY: as above
             let (old, mass) = unsafe { (*columns.velocity.add(p), *columns.mass.add(p)) };
-            let change: Vector<D> = if T::CHANGE {
+            let change: [f64; D] = if T::CHANGE {
                 // SAFETY: as above
                 vector(unsafe { gather_value::<L, D, N>(sources.change, tile, t, w) })
             } else {
-                Vector::zeros()
+                [0.0; D]
             };
-            let velocity =
-                Vector::from_fn(|a, _| pass.transfer.velocity(old[a], new[a], change[a]));
+            let mut velocity = Vector::<D>::zeros();
+            let mut square = 0.0;
+            for a in 0..D {
+                let v = pass.transfer.velocity(old[a], new[a], change[a]);
+                velocity[a] = v;
+                square += v * v;
+            }
             // SAFETY: as above
             unsafe { *columns.velocity.add(p) = velocity };
-            let square = velocity.norm_squared();
             gathered.kinetic += 0.5 * mass * square;
             // `max` would hide a velocity that is not a number
             gathered.within &= square.is_finite();

@@ -1,0 +1,261 @@
+//! The kernels of one basis and one transfer behind one interface, so that everything around them exists once a dimension.
+//!
+//! This is where the types of a run end: a virtual call for a block of points, none for a point.
+
+use super::lane::Portable;
+use super::stencil::{
+    Columns, Gathered, Pass, Rates, Reach, Scattered, Sources, Tile, Wanted, gather, scatter, scatter_forces,
+};
+use crate::basis::Basis;
+use crate::grid::{Block, Geometry, Node};
+use crate::math::Vector;
+use crate::transfer::Transfer;
+use std::ops::Range;
+
+/// What a pass over a body's points works with.
+#[derive(Clone, Copy)]
+pub struct Context<'a, const D: usize> {
+    /// The grid.
+    pub geometry: &'a Geometry<D>,
+    /// Index of the body.
+    pub body: usize,
+    /// Nodes along an edge of a block.
+    pub edge: i32,
+    /// Δt, s.
+    pub dt: f64,
+    /// Whether to use wide instructions; only if the processor has them.
+    pub wide: bool,
+}
+
+/// A basis and a transfer.
+pub trait Kernels<const D: usize>: Send + Sync {
+    /// Nodes along each axis of a stencil.
+    fn nodes(&self) -> usize;
+
+    /// Position of node `index` of an axis, in cells.
+    fn position(&self, index: i32, cells: i32) -> f64;
+
+    /// Where stencils of a body start relative to their point, in cells.
+    fn shift(&self, body: usize) -> [f64; D];
+
+    /// First node of the stencil of a point of a body, whose position is given in cells.
+    fn first(&self, body: usize, x: &[f64; D], cells: &[i32; D]) -> [i32; D];
+
+    /// Σ N_i (x_i − x)² along each axis, in cells², for a point of a body.
+    fn inertia(&self, body: usize, x: &[f64; D], cells: &[i32; D]) -> [f64; D];
+
+    /// The transfer's share of the points' own velocity.
+    fn ratio(&self) -> f64;
+
+    /// Whether forces are stored apart from momenta.
+    fn change(&self) -> bool;
+
+    /// [`scatter`] for one block.
+    ///
+    /// # Safety
+    /// As there.
+    unsafe fn scatter(
+        &self,
+        context: &Context<'_, D>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        what: Scattered,
+        targets: [*mut Node; 2],
+    );
+
+    /// [`scatter_forces`] for one block.
+    ///
+    /// # Safety
+    /// As there.
+    unsafe fn scatter_forces(
+        &self,
+        context: &Context<'_, D>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        nodes: *mut Node,
+        forces: &[(u32, Vector<D>)],
+    );
+
+    /// [`gather`] for some rows of a block.
+    ///
+    /// # Safety
+    /// As there.
+    #[allow(clippy::too_many_arguments)]
+    unsafe fn gather(
+        &self,
+        context: &Context<'_, D>,
+        columns: &Columns<D>,
+        tile: &Tile<D>,
+        reach: &Reach<D>,
+        rows: Range<usize>,
+        what: Wanted,
+        sources: &Sources,
+        rates: &mut Rates<D>,
+    ) -> Gathered;
+}
+
+/// The kernels for a basis of `N` nodes and a transfer.
+pub struct Stencils<const D: usize, const N: usize, B, T> {
+    /// The basis as the grid sees it.
+    pub nodes: B,
+    /// The basis of each body along each axis.
+    pub basis: Vec<[B; D]>,
+    /// The transfer.
+    pub transfer: T,
+}
+
+impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Stencils<D, N, B, T> {
+    fn pass<'a>(&self, context: &Context<'a, D>) -> Pass<'a, D, B, T> {
+        Pass {
+            geometry: context.geometry,
+            basis: self.basis[context.body],
+            transfer: self.transfer,
+            dt: context.dt,
+        }
+    }
+}
+
+/// Calls the version of a kernel for wide instructions, or the portable one.
+macro_rules! with_lanes {
+    ($wide:expr, $kernel:ident($($argument:expr),* $(,)?)) => {{
+        #[cfg(target_arch = "x86_64")]
+        if $wide {
+            // SAFETY: the instructions were found (`wide_instructions`); the rest as the caller says
+            unsafe { wide::$kernel::<D, N, B, T>($($argument),*) }
+        } else {
+            // SAFETY: as the caller says
+            unsafe { $kernel::<Portable, D, N, B, T>($($argument),*) }
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            let _ = $wide;
+            // SAFETY: as the caller says
+            unsafe { $kernel::<Portable, D, N, B, T>($($argument),*) }
+        }
+    }};
+}
+
+impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for Stencils<D, N, B, T> {
+    fn nodes(&self) -> usize {
+        N
+    }
+
+    fn position(&self, index: i32, cells: i32) -> f64 {
+        self.nodes.position(index, cells)
+    }
+
+    fn shift(&self, body: usize) -> [f64; D] {
+        self.basis[body].map(|basis| basis.shift())
+    }
+
+    fn first(&self, body: usize, x: &[f64; D], cells: &[i32; D]) -> [i32; D] {
+        std::array::from_fn(|a| self.basis[body][a].axis(x[a], cells[a]).first)
+    }
+
+    fn inertia(&self, body: usize, x: &[f64; D], cells: &[i32; D]) -> [f64; D] {
+        std::array::from_fn(|a| {
+            let basis = &self.basis[body][a];
+            let axis = basis.axis(x[a], cells[a]);
+            let arm = |i: usize| basis.position(axis.first + i as i32, cells[a]) - x[a];
+            (0..N).map(|i| axis.weight[i] * arm(i) * arm(i)).sum()
+        })
+    }
+
+    fn ratio(&self) -> f64 {
+        self.transfer.ratio()
+    }
+
+    fn change(&self) -> bool {
+        T::CHANGE
+    }
+
+    unsafe fn scatter(
+        &self,
+        context: &Context<'_, D>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        what: Scattered,
+        targets: [*mut Node; 2],
+    ) {
+        let pass = self.pass(context);
+        let [main, force] = targets;
+        with_lanes!(context.wide, scatter(&pass, columns, block, context.edge, what, main, force));
+    }
+
+    unsafe fn scatter_forces(
+        &self,
+        context: &Context<'_, D>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        nodes: *mut Node,
+        forces: &[(u32, Vector<D>)],
+    ) {
+        let pass = self.pass(context);
+        // SAFETY: as the caller says; loaded points are few, so that wide instructions bring nothing
+        unsafe { scatter_forces::<Portable, D, N, B, T>(&pass, columns, block, context.edge, nodes, forces) }
+    }
+
+    unsafe fn gather(
+        &self,
+        context: &Context<'_, D>,
+        columns: &Columns<D>,
+        tile: &Tile<D>,
+        reach: &Reach<D>,
+        rows: Range<usize>,
+        what: Wanted,
+        sources: &Sources,
+        rates: &mut Rates<D>,
+    ) -> Gathered {
+        let pass = self.pass(context);
+        with_lanes!(context.wide, gather(&pass, columns, tile, reach, rows, what, sources, rates))
+    }
+}
+
+/// The kernels of `stencil`, compiled for wide instructions.
+#[cfg(target_arch = "x86_64")]
+mod wide {
+    use super::*;
+    use crate::solver::lane::Avx;
+
+    #[target_feature(enable = "avx2,fma")]
+    pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+        pass: &Pass<'_, D, B, T>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        edge: i32,
+        what: Scattered,
+        main: *mut Node,
+        force: *mut Node,
+    ) {
+        // SAFETY: passed on to the caller
+        unsafe { super::scatter::<Avx, D, N, B, T>(pass, columns, block, edge, what, main, force) }
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    #[allow(clippy::too_many_arguments)]
+    pub unsafe fn gather<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+        pass: &Pass<'_, D, B, T>,
+        columns: &Columns<D>,
+        tile: &Tile<D>,
+        reach: &Reach<D>,
+        rows: Range<usize>,
+        what: Wanted,
+        sources: &Sources,
+        rates: &mut Rates<D>,
+    ) -> Gathered {
+        // SAFETY: passed on to the caller
+        unsafe { super::gather::<Avx, D, N, B, T>(pass, columns, tile, reach, rows, what, sources, rates) }
+    }
+}
+
+/// Whether this processor has the wide instructions that the fast kernels use.
+pub fn wide_instructions() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    {
+        std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        false
+    }
+}
