@@ -17,4 +17,5 @@ pub mod report;
 pub mod scenario;
 pub mod solver;
 pub mod state;
+pub mod study;
 pub mod transfer;

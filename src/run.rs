@@ -7,7 +7,7 @@ use crate::grid::Geometry;
 use crate::input::Variables;
 use crate::material::Plane;
 use crate::math::{Vector, packed_len};
-use crate::observe::{BodyTable, EnergyTable, Observer, ProbeTable, ReactionTable, Sink, View};
+use crate::observe::{Frame, Point, BodyTable, EnergyTable, Observer, ProbeTable, ReactionTable, Sink, View};
 use crate::scenario::{PointSet, body_points, LoadKind, LoadSpec, ProbeTarget, Region, Scenario};
 use crate::solver::{Account, Fault, Kernels, Load, LoadForce, Mpm, Setup, Solver, Stencils, TimeStep};
 use crate::state::{Body, Particles, State};
@@ -325,7 +325,19 @@ fn load<const D: usize>(spec: &LoadSpec, state: &State<D>, sets: &[PointSet]) ->
         None => 1.0,
     });
     let forces = |force: &dyn Fn(usize) -> Vector<D>| chosen.iter().map(|&p| force(p)).collect();
+    let points = chosen.iter().map(|&p| p as u32).collect();
     let forces: Vec<Vector<D>> = match &spec.kind {
+        LoadKind::Acceleration(field) => {
+            let field = field.clone();
+            let field = move |position: &Vector<D>, time: f64| {
+                let mut at = Variables { position: [0.0; 3], time };
+                at.position[..D].copy_from_slice(position.as_slice());
+                Vector::from_fn(|a, _| field[a].value(&at)) * factor(time)
+            };
+            let origins = chosen.iter().map(|&p| particles.position[p]).collect();
+            let force = LoadForce::Acceleration(origins, Box::new(field));
+            return Load { body: spec.body, points, force };
+        }
         LoadKind::Force(total) => {
             let mass: f64 = chosen.iter().map(|&p| particles.mass[p]).sum();
             forces(&|p| Vector::from_fn(|a, _| total[a] * particles.mass[p] / mass))
@@ -342,7 +354,7 @@ fn load<const D: usize>(spec: &LoadSpec, state: &State<D>, sets: &[PointSet]) ->
     };
     Load {
         body: spec.body,
-        points: chosen.iter().map(|&p| p as u32).collect(),
+        points,
         force: LoadForce::Forces(forces, factor),
     }
 }
@@ -451,6 +463,39 @@ fn planned(scenario: &Scenario, index: u64) -> f64 {
     if time >= scenario.end * (1.0 - 1e-9) { scenario.end } else { time }
 }
 
+/// All points, in the order in which their bodies were filled.
+fn frame<const D: usize>(state: &State<D>) -> Frame {
+    let mut points = Vec::with_capacity(state.point_count());
+    for (index, body) in state.bodies.iter().enumerate() {
+        let first = points.len();
+        let p = &body.particles;
+        for row in 0..p.len() {
+            let stress = body.cauchy_stress(row);
+            let mut point = Point {
+                body: index,
+                id: p.id[row],
+                mass: p.mass[row],
+                initial_volume: p.initial_volume[row],
+                volume_ratio: body.material.volume_ratio(row, p.hoop_stretch(row)),
+                ..Point::default()
+            };
+            for a in 0..D {
+                point.position[a] = p.position[row][a];
+                point.velocity[a] = p.velocity[row][a];
+                for b in 0..D {
+                    point.stress[a][b] = stress[(a, b)];
+                }
+            }
+            if let Some(hoop) = p.hoop_stress.get(row) {
+                point.stress[2][2] = hoop / point.volume_ratio;
+            }
+            points.push(point);
+        }
+        points[first..].sort_by_key(|point| point.id);
+    }
+    Frame { time: state.time, points }
+}
+
 fn momentum<const D: usize>(state: &State<D>) -> Vec<f64> {
     let total: Vector<D> = state.bodies.iter().map(|body| body.totals().momentum).sum();
     total.iter().copied().collect()
@@ -468,6 +513,9 @@ fn record<const D: usize>(
     let view = View { state, account, ledger: solver.ledger(), spin: &spin };
     for observer in observers {
         sink.row(&observer.name(), &observer.row(&view))?;
+    }
+    if sink.wants_frames() {
+        sink.frame(frame(state))?;
     }
     summary.rows += 1;
     summary.energy = Energies::from(&account);

@@ -12,7 +12,7 @@ pub use body::BodyTable;
 pub use boundary::ReactionTable;
 pub use energy::EnergyTable;
 pub use probe::ProbeTable;
-pub use sink::{CsvSink, Memory, Sink, Table};
+pub use sink::{CsvSink, Frame, Memory, Point, Sink, Table};
 
 use crate::math::Vector;
 use crate::solver::{Account, Ledger};

@@ -13,8 +13,49 @@ pub trait Sink {
     /// Adds a row.
     fn row(&mut self, name: &str, row: &[f64]) -> io::Result<()>;
 
+    /// Whether it takes all points at every recorded time.
+    fn wants_frames(&self) -> bool {
+        false
+    }
+
+    /// Adds all points at one recorded time.
+    fn frame(&mut self, frame: Frame) -> io::Result<()> {
+        let _ = frame;
+        Ok(())
+    }
+
     /// Makes sure that everything so far can be read.
     fn flush(&mut self) -> io::Result<()>;
+}
+
+/// One material point at one time. Axes that the scene does not have are zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Point {
+    /// Index of its body.
+    pub body: usize,
+    /// Its number in the body.
+    pub id: u32,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Initial volume, m³.
+    pub initial_volume: f64,
+    /// J.
+    pub volume_ratio: f64,
+    /// Position, m.
+    pub position: [f64; 3],
+    /// Velocity, m/s.
+    pub velocity: [f64; 3],
+    /// Cauchy stress, Pa; in an axisymmetric scene the last one is the hoop stress.
+    pub stress: [[f64; 3]; 3],
+}
+
+/// All points at one time, body by body, in the order in which bodies were filled.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Time, s.
+    pub time: f64,
+    /// The points.
+    pub points: Vec<Point>,
 }
 
 /// CSV files in a folder, with every digit that a number needs to be read back exactly.
@@ -92,6 +133,10 @@ impl Table {
 pub struct Memory {
     /// The tables.
     pub tables: BTreeMap<String, Table>,
+    /// Whether to keep all points at every recorded time.
+    pub keep_frames: bool,
+    /// All points at every recorded time, if kept.
+    pub frames: Vec<Frame>,
 }
 
 impl Memory {
@@ -109,6 +154,15 @@ impl Sink for Memory {
 
     fn row(&mut self, name: &str, row: &[f64]) -> io::Result<()> {
         self.tables.entry(name.to_string()).or_default().rows.push(row.to_vec());
+        Ok(())
+    }
+
+    fn wants_frames(&self) -> bool {
+        self.keep_frames
+    }
+
+    fn frame(&mut self, frame: Frame) -> io::Result<()> {
+        self.frames.push(frame);
         Ok(())
     }
 

@@ -183,6 +183,8 @@ pub enum LoadKind {
         /// The side that it acts on.
         side: Side,
     },
+    /// Acceleration of every chosen point, m/s²: expressions of its initial position and of time.
+    Acceleration(Vec<Expression>),
 }
 
 /// What is recorded, and when.

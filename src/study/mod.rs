@@ -1,0 +1,3 @@
+//! What runs many runs.
+
+pub mod validate;
