@@ -75,7 +75,10 @@ impl ThreadArguments {
         let threads = self.threads.map_or(0, usize::from);
         match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
             Ok(pool) => Ok(pool.install(work)),
-            Err(error) => Err(fail(code::SYSTEM, &format!("cannot start {threads} threads: {error}"))),
+            Err(error) => Err(fail(
+                code::SYSTEM,
+                &format!("cannot start {threads} threads: {error}"),
+            )),
         }
     }
 }
@@ -113,5 +116,8 @@ fn load(arguments: &ScenarioArguments) -> Result<crate::scenario::Loaded, ExitCo
 
 /// The name of a scenario: its file name without the ending.
 fn stem(path: &Path) -> String {
-    path.file_stem().map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy().into_owned())
+    path.file_stem().map_or_else(
+        || "scenario".into(),
+        |stem| stem.to_string_lossy().into_owned(),
+    )
 }

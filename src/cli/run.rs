@@ -41,25 +41,43 @@ pub fn run(arguments: &RunArguments) -> ExitCode {
 fn try_run(arguments: &RunArguments) -> Result<ExitCode, ExitCode> {
     let loaded = load(&arguments.scenario)?;
     let name = stem(&arguments.scenario.scenario);
-    let folder = arguments.output.clone().unwrap_or_else(|| Path::new("runs").join(&name));
+    let folder = arguments
+        .output
+        .clone()
+        .unwrap_or_else(|| Path::new("runs").join(&name));
     prepare(&folder, arguments.force)?;
     write_scenario(&folder, &loaded)?;
     let bar = progress_bar(arguments);
     let (summary, result) = arguments.threads.install(|| {
         let mut sink = CsvSink::new(&folder);
-        with_scene(&loaded.scenario, Drive { scenario: &loaded.scenario, sink: &mut sink, bar: &bar })
+        with_scene(
+            &loaded.scenario,
+            Drive {
+                scenario: &loaded.scenario,
+                sink: &mut sink,
+                bar: &bar,
+            },
+        )
     })?;
     bar.finish_and_clear();
     let json = serde_json::to_string_pretty(&summary)
         .map_err(|error| fail(code::SYSTEM, &format!("cannot write the summary: {error}")))?;
     let path = folder.join("summary.json");
-    std::fs::write(&path, format!("{json}\n"))
-        .map_err(|error| fail(code::SYSTEM, &format!("cannot write {}: {error}", path.display())))?;
+    std::fs::write(&path, format!("{json}\n")).map_err(|error| {
+        fail(
+            code::SYSTEM,
+            &format!("cannot write {}: {error}", path.display()),
+        )
+    })?;
     if arguments.json {
         println!("{json}");
     }
     if let Err(error) = result {
-        eprintln!("tables up to t = {:e} s are in {}", summary.time, folder.display());
+        eprintln!(
+            "tables up to t = {:e} s are in {}",
+            summary.time,
+            folder.display()
+        );
         return Err(fail(
             match error {
                 RunError::Fault(_) => code::RUN,
@@ -83,20 +101,30 @@ fn try_run(arguments: &RunArguments) -> Result<ExitCode, ExitCode> {
 /// Makes the output folder, and refuses one that already holds a run.
 fn prepare(folder: &Path, force: bool) -> Result<(), ExitCode> {
     let system = |what: &str, error: std::io::Error| {
-        fail(code::SYSTEM, &format!("cannot {what} {}: {error}", folder.display()))
+        fail(
+            code::SYSTEM,
+            &format!("cannot {what} {}: {error}", folder.display()),
+        )
     };
     if folder.exists() && !folder.is_dir() {
         return Err(fail(
             code::INPUT,
-            &format!("{} is a file; name a folder for the tables with --output", folder.display()),
+            &format!(
+                "{} is a file; name a folder for the tables with --output",
+                folder.display()
+            ),
         ));
     }
     std::fs::create_dir_all(folder).map_err(|error| system("create", error))?;
     let mut old = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(|error| system("read", error))? {
         let path = entry.map_err(|error| system("read", error))?.path();
-        let ours = path.extension().is_some_and(|end| end == "csv" || end == "png")
-            || path.file_name().is_some_and(|name| name == "run.toml" || name == "summary.json");
+        let ours = path
+            .extension()
+            .is_some_and(|end| end == "csv" || end == "png")
+            || path
+                .file_name()
+                .is_some_and(|name| name == "run.toml" || name == "summary.json");
         if ours {
             old.push(path);
         }
@@ -123,8 +151,12 @@ fn write_scenario(folder: &Path, loaded: &Loaded) -> Result<(), ExitCode> {
         env!("CARGO_PKG_VERSION"),
         loaded.resolved_toml
     );
-    std::fs::write(&path, text)
-        .map_err(|error| fail(code::SYSTEM, &format!("cannot write {}: {error}", path.display())))
+    std::fs::write(&path, text).map_err(|error| {
+        fail(
+            code::SYSTEM,
+            &format!("cannot write {}: {error}", path.display()),
+        )
+    })
 }
 
 fn progress_bar(arguments: &RunArguments) -> ProgressBar {
@@ -148,26 +180,46 @@ impl SceneVisitor for Drive<'_> {
 
     fn visit<const D: usize>(self, mut scene: Scene<D>) -> Self::Output {
         let started = std::time::Instant::now();
-        drive(self.scenario, &mut scene, self.sink, &mut |progress: &Progress| {
-            let rate = progress.points as f64 * progress.steps as f64 / started.elapsed().as_secs_f64();
-            self.bar.set_position((10_000.0 * progress.time / progress.end) as u64);
-            self.bar.set_message(format!(
-                "t = {:.4e} s  step {}  dt {:.2e} s  {:.1} M particle steps/s",
-                progress.time,
-                progress.steps,
-                progress.dt,
-                rate / 1e6
-            ));
-            true
-        })
+        drive(
+            self.scenario,
+            &mut scene,
+            self.sink,
+            &mut |progress: &Progress| {
+                let rate = progress.points as f64 * progress.steps as f64
+                    / started.elapsed().as_secs_f64();
+                self.bar
+                    .set_position((10_000.0 * progress.time / progress.end) as u64);
+                self.bar.set_message(format!(
+                    "t = {:.4e} s  step {}  dt {:.2e} s  {:.1} M particle steps/s",
+                    progress.time,
+                    progress.steps,
+                    progress.dt,
+                    rate / 1e6
+                ));
+                true
+            },
+        )
     }
 }
 
 fn print_summary(summary: &Summary, folder: &Path) {
     let energy = &summary.energy;
-    let vector = |v: &[f64]| v.iter().map(|x| format!("{x:.6e}")).collect::<Vec<_>>().join(", ");
+    let vector = |v: &[f64]| {
+        v.iter()
+            .map(|x| format!("{x:.6e}"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let mut lines = vec![
-        ("simulated", format!("{:.6e} s in {} steps of {}", summary.time, summary.steps, range(summary.dt))),
+        (
+            "simulated",
+            format!(
+                "{:.6e} s in {} steps of {}",
+                summary.time,
+                summary.steps,
+                range(summary.dt)
+            ),
+        ),
         (
             "speed",
             format!(
@@ -192,12 +244,34 @@ fn print_summary(summary: &Summary, folder: &Path) {
                 energy.external_work, energy.boundary_work, -energy.damping, energy.numerical
             ),
         ),
-        ("residual", format!("{:.1e} of the largest energy turned over", summary.worst_energy_residual)),
-        ("momentum", format!("{} -> {} kg m/s", vector(&summary.momentum[0]), vector(&summary.momentum[1]))),
-        ("tables", format!("{} rows each in {}", summary.rows, folder.display())),
+        (
+            "residual",
+            format!(
+                "{:.1e} of the largest energy turned over",
+                summary.worst_energy_residual
+            ),
+        ),
+        (
+            "momentum",
+            format!(
+                "{} -> {} kg m/s",
+                vector(&summary.momentum[0]),
+                vector(&summary.momentum[1])
+            ),
+        ),
+        (
+            "tables",
+            format!("{} rows each in {}", summary.rows, folder.display()),
+        ),
     ];
     if summary.peak_memory > 0 {
-        lines.insert(2, ("memory", format!("{:.1} MB at most", summary.peak_memory as f64 / 1e6)));
+        lines.insert(
+            2,
+            (
+                "memory",
+                format!("{:.1} MB at most", summary.peak_memory as f64 / 1e6),
+            ),
+        );
     }
     let mut out = std::io::stdout().lock();
     for (name, value) in lines {

@@ -59,11 +59,16 @@ fn try_validate(arguments: &ValidateArguments) -> Result<ExitCode, ExitCode> {
     for case in cases {
         let started = Instant::now();
         let mut report = Report::default();
-        let result: Result<(), CaseError> = arguments.threads.install(|| (case.run)(&mut report))?;
+        let result: Result<(), CaseError> =
+            arguments.threads.install(|| (case.run)(&mut report))?;
         report.close_account();
         if let Some(folder) = &arguments.output {
-            write(folder, case.name, &report)
-                .map_err(|error| fail(code::SYSTEM, &format!("cannot write to {}: {error}", folder.display())))?;
+            write(folder, case.name, &report).map_err(|error| {
+                fail(
+                    code::SYSTEM,
+                    &format!("cannot write to {}: {error}", folder.display()),
+                )
+            })?;
         }
         let outcome = Outcome {
             case: case.name,
@@ -85,9 +90,17 @@ fn try_validate(arguments: &ValidateArguments) -> Result<ExitCode, ExitCode> {
             .map_err(|error| fail(code::SYSTEM, &format!("cannot print the results: {error}")))?;
         println!("{json}");
     } else {
-        println!("{} of {} cases passed", outcomes.len() - failed, outcomes.len());
+        println!(
+            "{} of {} cases passed",
+            outcomes.len() - failed,
+            outcomes.len()
+        );
     }
-    Ok(ExitCode::from(if failed == 0 { code::DONE } else { code::VALIDATION_FAILED }))
+    Ok(ExitCode::from(if failed == 0 {
+        code::DONE
+    } else {
+        code::VALIDATION_FAILED
+    }))
 }
 
 fn choose(names: &[String]) -> Result<Vec<&'static Case>, ExitCode> {
@@ -97,9 +110,14 @@ fn choose(names: &[String]) -> Result<Vec<&'static Case>, ExitCode> {
     let mut chosen = Vec::new();
     for name in names {
         let Some(case) = CASES.iter().find(|case| case.name == name) else {
-            let hint = crate::input::nearest(name, CASES.iter().map(|case| case.name))
-                .map_or_else(|| "`mpm validate --list` names them all".into(), |near| format!("did you mean \"{near}\"?"));
-            return Err(fail(code::INPUT, &format!("there is no case \"{name}\"; {hint}")));
+            let hint = crate::input::nearest(name, CASES.iter().map(|case| case.name)).map_or_else(
+                || "`mpm validate --list` names them all".into(),
+                |near| format!("did you mean \"{near}\"?"),
+            );
+            return Err(fail(
+                code::INPUT,
+                &format!("there is no case \"{name}\"; {hint}"),
+            ));
         };
         chosen.push(case);
     }
@@ -107,7 +125,10 @@ fn choose(names: &[String]) -> Result<Vec<&'static Case>, ExitCode> {
 }
 
 fn print_outcome(outcome: &Outcome) {
-    println!("{}: {} ({:.1} s)", outcome.case, outcome.claim, outcome.seconds);
+    println!(
+        "{}: {} ({:.1} s)",
+        outcome.case, outcome.claim, outcome.seconds
+    );
     println!("  reference: {}", outcome.reference);
     let mut table = Table::new(["  ", "measured", "limit", ""])
         .align(1, Align::Right)
@@ -149,7 +170,11 @@ fn write(folder: &Path, case: &str, report: &Report) -> std::io::Result<()> {
         writer.flush()?;
     }
     for (name, charts) in &report.charts {
-        panels(charts, &folder.join(format!("{case}_{name}.png")), Size::default())?;
+        panels(
+            charts,
+            &folder.join(format!("{case}_{name}.png")),
+            Size::default(),
+        )?;
     }
     Ok(())
 }

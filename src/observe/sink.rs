@@ -67,7 +67,10 @@ pub struct CsvSink {
 impl CsvSink {
     /// Files in `folder`, which exists.
     pub fn new(folder: &Path) -> Self {
-        Self { folder: folder.to_path_buf(), files: BTreeMap::new() }
+        Self {
+            folder: folder.to_path_buf(),
+            files: BTreeMap::new(),
+        }
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -75,7 +78,10 @@ impl CsvSink {
     }
 
     fn explain(&self, name: &str, error: impl std::fmt::Display) -> io::Error {
-        io::Error::other(format!("cannot write {}: {error}", self.path(name).display()))
+        io::Error::other(format!(
+            "cannot write {}: {error}",
+            self.path(name).display()
+        ))
     }
 }
 
@@ -83,7 +89,9 @@ impl Sink for CsvSink {
     fn open(&mut self, name: &str, header: &[String]) -> io::Result<()> {
         let file = File::create(self.path(name)).map_err(|error| self.explain(name, error))?;
         let mut writer = csv::Writer::from_writer(file);
-        writer.write_record(header).map_err(|error| self.explain(name, error))?;
+        writer
+            .write_record(header)
+            .map_err(|error| self.explain(name, error))?;
         writer.flush().map_err(|error| self.explain(name, error))?;
         self.files.insert(name.to_string(), writer);
         Ok(())
@@ -122,7 +130,11 @@ impl Table {
     /// A column by name; empty if there is none.
     pub fn column(&self, name: &str) -> Vec<f64> {
         match self.header.iter().position(|header| header == name) {
-            Some(index) => self.rows.iter().filter_map(|row| row.get(index).copied()).collect(),
+            Some(index) => self
+                .rows
+                .iter()
+                .filter_map(|row| row.get(index).copied())
+                .collect(),
             None => Vec::new(),
         }
     }
@@ -142,18 +154,31 @@ pub struct Memory {
 impl Memory {
     /// A column of a table; empty if there is none.
     pub fn column(&self, table: &str, column: &str) -> Vec<f64> {
-        self.tables.get(table).map(|table| table.column(column)).unwrap_or_default()
+        self.tables
+            .get(table)
+            .map(|table| table.column(column))
+            .unwrap_or_default()
     }
 }
 
 impl Sink for Memory {
     fn open(&mut self, name: &str, header: &[String]) -> io::Result<()> {
-        self.tables.insert(name.to_string(), Table { header: header.to_vec(), rows: Vec::new() });
+        self.tables.insert(
+            name.to_string(),
+            Table {
+                header: header.to_vec(),
+                rows: Vec::new(),
+            },
+        );
         Ok(())
     }
 
     fn row(&mut self, name: &str, row: &[f64]) -> io::Result<()> {
-        self.tables.entry(name.to_string()).or_default().rows.push(row.to_vec());
+        self.tables
+            .entry(name.to_string())
+            .or_default()
+            .rows
+            .push(row.to_vec());
         Ok(())
     }
 

@@ -142,7 +142,10 @@ fn objective<const D: usize>() {
                 turned *= point.volume_ratio() / before.volume_ratio();
             }
             let size = |tau: &Matrix<D>| tau.norm();
-            assert!((size(&point.tau()) / size(&turned) - 1.0).abs() < 1e-13, "{label}");
+            assert!(
+                (size(&point.tau()) / size(&turned) - 1.0).abs() < 1e-13,
+                "{label}"
+            );
             let difference = (point.tau() - turned).norm() / turned.norm();
             assert!(difference < 1e-12, "{label}: {difference}");
             return;
