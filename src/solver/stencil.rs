@@ -230,57 +230,76 @@ unsafe fn gather_value<L: Lane, const D: usize, const N: usize>(
     sum
 }
 
-/// Σ_I N_I node_I, and for each axis a the same with the functions `g` in place of N along that axis: Σ_I ∂_a N_I node_I.
+/// Σ_I N_I node_I, and for each set of functions `g[m]` and each axis a the same with `g[m]` in place of N along that axis: with
+/// the slopes Σ_I ∂_a N_I node_I. All sets together read the nodes once.
 #[inline(always)]
-unsafe fn gather_linear<L: Lane, const D: usize, const N: usize>(
+unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, const M: usize>(
     nodes: *const Node,
     tile: &Tile<D>,
     t: [usize; D],
     w: &[[f64; N]; D],
-    g: &[[f64; N]; D],
-) -> (L, [L; D]) {
+    g: [&[[f64; N]; D]; M],
+) -> (L, [[L; D]; M]) {
     let zero = L::splat(0.0);
     let last = splats::<L, N>(&w[D - 1]);
-    let slope = splats::<L, N>(&g[D - 1]);
-    // (value, slope along the last axis) of N nodes in a row
+    let mut slope = [[zero; N]; M];
+    for m in 0..M {
+        slope[m] = splats::<L, N>(&g[m][D - 1]);
+    }
+    // (value, slopes along the last axis) of N nodes in a row
     let row = |at: usize| {
-        let (mut value, mut change) = (zero, zero);
+        let (mut value, mut change) = (zero, [zero; M]);
         for k in 0..N {
             // SAFETY: the tile addresses stored nodes only (module header)
             let node = unsafe { L::load(nodes.add(at + k).cast()) };
             value = last[k].mul_add(node, value);
-            change = slope[k].mul_add(node, change);
+            for m in 0..M {
+                change[m] = slope[m][k].mul_add(node, change[m]);
+            }
         }
         (value, change)
     };
-    let mut gradient = [zero; D];
+    let mut gradient = [[zero; D]; M];
     let mut sum = zero;
     match D {
-        1 => (sum, gradient[0]) = row(tile.rows[0] + t[0]),
+        1 => {
+            let (value, change) = row(tile.rows[0] + t[0]);
+            sum = value;
+            for m in 0..M {
+                gradient[m][0] = change[m];
+            }
+        }
         2 => {
             for i in 0..N {
                 let (value, change) = row(tile.rows[t[0] + i] + t[1]);
                 let wi = L::splat(w[0][i]);
                 sum = wi.mul_add(value, sum);
-                gradient[0] = L::splat(g[0][i]).mul_add(value, gradient[0]);
-                gradient[1] = wi.mul_add(change, gradient[1]);
+                for m in 0..M {
+                    gradient[m][0] = L::splat(g[m][0][i]).mul_add(value, gradient[m][0]);
+                    gradient[m][1] = wi.mul_add(change[m], gradient[m][1]);
+                }
             }
         }
         _ => {
             for i in 0..tile.n {
-                let (mut value, mut dy, mut dz) = (zero, zero, zero);
+                let (mut value, mut dy, mut dz) = (zero, [zero; M], [zero; M]);
                 for j in 0..N {
-                    let (v, c) = row(tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2]);
+                    let at = tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2];
+                    let (v, c) = row(at);
                     let wj = L::splat(w[1][j]);
                     value = wj.mul_add(v, value);
-                    dy = L::splat(g[1][j]).mul_add(v, dy);
-                    dz = wj.mul_add(c, dz);
+                    for m in 0..M {
+                        dy[m] = L::splat(g[m][1][j]).mul_add(v, dy[m]);
+                        dz[m] = wj.mul_add(c[m], dz[m]);
+                    }
                 }
                 let wi = L::splat(w[0][i]);
                 sum = wi.mul_add(value, sum);
-                gradient[0] = L::splat(g[0][i]).mul_add(value, gradient[0]);
-                gradient[1] = wi.mul_add(dy, gradient[1]);
-                gradient[2] = wi.mul_add(dz, gradient[2]);
+                for m in 0..M {
+                    gradient[m][0] = L::splat(g[m][0][i]).mul_add(value, gradient[m][0]);
+                    gradient[m][1] = wi.mul_add(dy[m], gradient[m][1]);
+                    gradient[m][2] = wi.mul_add(dz[m], gradient[m][2]);
+                }
             }
         }
     }
@@ -719,28 +738,40 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
         let mut hoop_velocity = 0.0;
         // SAFETY: the tile holds every node of the stencil (module header)
         unsafe {
-            if what.rate {
-                let from = if what.same {
-                    sources.main
-                } else {
-                    sources.second
-                };
-                let (value, gradient) = gather_linear::<L, D, N>(from, tile, t, w, &s.slope);
-                rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
-                hoop_velocity = value.array()[0];
-                if what.same {
-                    new = value;
-                }
-            }
-            if what.velocity && T::AFFINE {
+            if what.rate && what.same && what.velocity && T::AFFINE {
                 let g = pass.affine_weights(&s);
-                let (value, gradient) = gather_linear::<L, D, N>(sources.main, tile, t, w, &g);
-                *columns.affine.add(p) = matrix::<L, D>(&gradient);
+                let (value, [gradient, affine]) =
+                    gather_linear::<L, D, N, 2>(sources.main, tile, t, w, [&s.slope, &g]);
+                rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
+                *columns.affine.add(p) = matrix::<L, D>(&affine);
+                hoop_velocity = value.array()[0];
                 new = value;
-            } else if !(what.rate && what.same)
-                && (what.position || (what.velocity && (blend || !T::CHANGE)))
-            {
-                new = gather_value::<L, D, N>(sources.main, tile, t, w);
+            } else {
+                if what.rate {
+                    let from = if what.same {
+                        sources.main
+                    } else {
+                        sources.second
+                    };
+                    let (value, [gradient]) =
+                        gather_linear::<L, D, N, 1>(from, tile, t, w, [&s.slope]);
+                    rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
+                    hoop_velocity = value.array()[0];
+                    if what.same {
+                        new = value;
+                    }
+                }
+                if what.velocity && T::AFFINE {
+                    let g = pass.affine_weights(&s);
+                    let (value, [affine]) =
+                        gather_linear::<L, D, N, 1>(sources.main, tile, t, w, [&g]);
+                    *columns.affine.add(p) = matrix::<L, D>(&affine);
+                    new = value;
+                } else if !(what.rate && what.same)
+                    && (what.position || (what.velocity && (blend || !T::CHANGE)))
+                {
+                    new = gather_value::<L, D, N>(sources.main, tile, t, w);
+                }
             }
         }
         if what.rate && D == 2 && columns.axisymmetric {
