@@ -4,8 +4,9 @@
 //! [`Lane`], once with wide instructions and once without; `plain` beside this file says what they mean.
 //!
 //! Everything `unsafe` here rests on three facts. A point's stencil starts at most one node outside its block (checked by
-//! [`gather`] whenever a point moves, and by the sort, which refuses points that are not finite or outside the grid), so
-//! [`Tile`] addresses only stored nodes. Blocks that are scattered at the same time have the same colour, so they share no
+//! [`gather`] whenever a point moves, and by the sort, which refuses points that are not finite or outside the grid); should
+//! somebody else have moved the point meanwhile, [`Tile`] holds its stencil inside the tile, which is wrong but addresses only
+//! stored nodes, and the health check at the end of the step tells. Blocks that are scattered at the same time have the same colour, so they share no
 //! node. Blocks hold disjoint ranges of rows, so no two threads touch the same point.
 
 use super::lane::Lane;
@@ -26,10 +27,10 @@ const MAX_ROWS: usize = 169;
 pub struct Tile<const D: usize> {
     rows: [usize; MAX_ROWS],
     width: usize,
+    /// The last place at which a stencil may start, along every axis.
+    last: u32,
     /// N, in a form that keeps the compiler from unrolling all N³ nodes of a 3D stencil, which takes it long and wins nothing.
     n: usize,
-    /// The last place where a stencil may start.
-    last: i32,
     origin: [i32; D],
 }
 
@@ -69,8 +70,8 @@ impl<const D: usize> Tile<D> {
         Self {
             rows,
             width,
+            last: edge as u32 + 1,
             n: std::hint::black_box(n),
-            last: edge as i32 + 1,
             origin: block.origin,
         }
     }
@@ -80,9 +81,9 @@ impl<const D: usize> Tile<D> {
     fn local(&self, first: [i32; D]) -> [usize; D] {
         let mut t = [0; D];
         for a in 0..D {
-            // never clamps a point that was sorted and moved by this solver; keeps one that somebody else moved in memory
-            let local = (first[a] - self.origin[a] + 1).clamp(0, self.last);
-            t[a] = local as usize;
+            // below the tile is far above it in unsigned numbers
+            let local = first[a].wrapping_sub(self.origin[a]).wrapping_add(1) as u32;
+            t[a] = local.min(self.last) as usize;
         }
         t
     }
@@ -356,7 +357,14 @@ unsafe impl<const D: usize> Sync for Columns<D> {}
 
 impl<const D: usize> Columns<D> {
     /// Pointers to the columns, valid until the columns are moved or resized.
-    pub fn new(particles: &mut Particles<D>) -> Self {
+    ///
+    /// # Panics
+    /// If the columns do not have one entry for each of `count` points, affine fields included if `affine`.
+    pub fn new(particles: &mut Particles<D>, count: usize, affine: bool) -> Self {
+        assert!(
+            particles.are_whole(count, affine),
+            "the columns of a body were resized between two steps; points are added and removed before a run only"
+        );
         Self {
             position: particles.position.as_mut_ptr(),
             velocity: particles.velocity.as_mut_ptr(),
@@ -460,7 +468,12 @@ impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
                 weights[a][i] *= s.weight[a][i];
                 inertia += weights[a][i] * arm;
             }
-            let scale = 1.0 / (inertia.max(f64::MIN_POSITIVE) * self.geometry.cell_size);
+            if inertia <= f64::MIN_POSITIVE {
+                // on the very end of a grid of splines one node has all the weight and no arm: the slopes are the limit
+                weights[a] = s.slope[a];
+                continue;
+            }
+            let scale = 1.0 / (inertia * self.geometry.cell_size);
             for i in 0..N {
                 weights[a][i] *= scale;
             }
