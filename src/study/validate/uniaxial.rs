@@ -1,7 +1,7 @@
 //! One cell under uniaxial strain: four points, the bottom held, the top pushed down at 0.01 m/s for ten steps of 0.01 s.
 //!
-//! The published figure of the CB-Geo benchmark of this name, to all its eight decimals: σ_yy = E ε = −1 Pa, σ_xx = 0. The
-//! classical rate law adds E Δt ∂v/∂y in each step, with ∂v/∂y = −0.01 /s on the fixed grid, so −1 Pa holds to round-off.
+//! The figures that the CB-Geo benchmark of this name is checked against, to eight decimals, in its `test_benchmark.py` (inputs
+//! in `mpm.json`; github.com/cb-geo/mpm-benchmarks, 2d/uniaxial_stress): σ_yy = E ε = −1 Pa, σ_xx = 0. The classical rate law adds E Δt ∂v/∂y in each step, with ∂v/∂y = −0.01 /s on the fixed grid, so −1 Pa holds to round-off.
 
 use super::history::{last, points};
 use super::{Case, CaseError, Report};
@@ -11,7 +11,7 @@ use crate::report::{LineChart, Series, Style};
 pub const CASE: Case = Case {
     name: "uniaxial_stress",
     claim: "one cell of four points, compressed by a thousandth, carries the published stress to its last digit",
-    reference: "CB-Geo MPM benchmarks, 2d/uniaxial_stress: stress_yy = -1.00000000",
+    reference: "CB-Geo MPM benchmarks, 2d/uniaxial_stress: stress_yy = -1, to eight decimals",
     run,
 };
 
@@ -38,9 +38,9 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     let time = run.column("energy", "time");
     let first: Vec<f64> = along.iter().map(|all| all[0]).collect();
     let exact: Vec<f64> = time.iter().map(|t| -10.0 * t).collect();
-    // the top is pushed with the force that the points carry: E ε · 1 m²
+    // The top is pushed with the force that the points carry: E ε · 1 m², less by the strain, as the grid's cell is not shortened.
     let reaction = last(&run.column("boundary_top", "reaction_y"));
-    report.close("force of the top in the last step (N)", reaction, -1.0, 0.02);
+    report.close("force of the top in the last step (N)", reaction, -1.0, 0.002);
     report.table("stress", &[("time", &time), ("computed", &first), ("exact", &exact)]);
     report.chart(
         "stress",
