@@ -30,33 +30,61 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
         let run = report.run(SCENARIO, &set(&[("grid.cell_size", &format!("{h}"))]))?;
         let time = run.column("energy", "time");
         let kinetic = run.column("energy", "kinetic");
-        let felt = kinetic.iter().position(|k| *k < 0.999 * exact).map_or(f64::NAN, |row| time[row]);
+        let felt = kinetic
+            .iter()
+            .position(|k| *k < 0.999 * exact)
+            .map_or(f64::NAN, |row| time[row]);
         gaps.push((touch - felt) * CLOSING_SPEED / h);
         finest = Some(run);
     }
     // A quadratic basis spreads a point over a cell and a half on either side: two bodies share a node from three cells apart,
     // with little weight at first. Later than geometry would be a missed contact.
     for (h, gap) in [0.05, 0.025].into_iter().zip(&gaps) {
-        report.close(format!("cells of {h} m: gap at first contact / cell size"), *gap, 1.5, 1.0);
+        report.close(
+            format!("cells of {h} m: gap at first contact / cell size"),
+            *gap,
+            1.5,
+            1.0,
+        );
     }
     let Some(run) = finest else { return Ok(()) };
     let column = |name: &str| run.column("energy", name);
     let (time, kinetic, elastic) = (column("time"), column("kinetic"), column("elastic"));
     // the points carry exactly the mass of the circle
-    report.close("kinetic energy before / exact", kinetic[0] / exact, 1.0, 1e-12);
+    report.close(
+        "kinetic energy before / exact",
+        kinetic[0] / exact,
+        1.0,
+        1e-12,
+    );
     let before = time.partition_point(|t| *t < 1.2);
-    report.close("kinetic energy in free flight / exact", kinetic[before] / exact, 1.0, 1e-9);
+    report.close(
+        "kinetic energy in free flight / exact",
+        kinetic[before] / exact,
+        1.0,
+        1e-9,
+    );
     momentum(report, &run);
     // Energy is stored, not lost: FLIP with MUSL ripples by ω Δt/2 of what its fastest vibration holds, and noise takes the rest.
     let after = (last(&kinetic) + last(&elastic)) / exact;
-    report.close("kinetic + elastic energy after / kinetic energy before", after, 0.995, 0.01);
+    report.close(
+        "kinetic + elastic energy after / kinetic energy before",
+        after,
+        0.995,
+        0.01,
+    );
     // at the turning point nearly all is elastic: a head-on collision of equals stops both
     let least = kinetic.iter().copied().fold(f64::INFINITY, f64::min) / exact;
     report.at_most("least kinetic energy / kinetic energy before", least, 0.06);
     // Restitution below one by what the vibration took. It has converged: 0.9273 here, 0.9260 with half the cell size. A loss
     // in the method shows: APIC gives 0.885.
     let velocity = run.column("body_lower", "velocity_x");
-    report.close("speed after / speed before", -last(&velocity) / velocity[0], 0.927, 0.01);
+    report.close(
+        "speed after / speed before",
+        -last(&velocity) / velocity[0],
+        0.927,
+        0.01,
+    );
     let total = column("total");
     report.table(
         "energy",
@@ -78,7 +106,10 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     };
     let line = |name: &str, y: &[f64]| Series::new(name, points(&time, y), Style::Line);
     let dashed = |name: &str, points| Series::new(name, points, Style::Dashed);
-    let (lower, upper) = (run.column("body_lower", "momentum_x"), run.column("body_upper", "momentum_x"));
+    let (lower, upper) = (
+        run.column("body_lower", "momentum_x"),
+        run.column("body_upper", "momentum_x"),
+    );
     let sum: Vec<f64> = lower.iter().zip(&upper).map(|(a, b)| a + b).collect();
     report.chart(
         "collision",
@@ -90,7 +121,10 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
                     line("kinetic", &kinetic),
                     line("elastic", &elastic),
                     line("both", &total),
-                    dashed("exact before, and when the circles touch", vec![(0.0, exact), (touch, exact), (touch, 0.0)]),
+                    dashed(
+                        "exact before, and when the circles touch",
+                        vec![(0.0, exact), (touch, exact), (touch, 0.0)],
+                    ),
                 ],
             ),
             chart(
@@ -113,11 +147,23 @@ fn momentum(report: &mut Report, run: &Recorded) {
     let one = run.column("body_lower", "momentum_x")[0];
     let mut worst: f64 = 0.0;
     for axis in ["momentum_x", "momentum_y"] {
-        let (lower, upper) = (run.column("body_lower", axis), run.column("body_upper", axis));
+        let (lower, upper) = (
+            run.column("body_lower", axis),
+            run.column("body_upper", axis),
+        );
         let sum: Vec<f64> = lower.iter().zip(&upper).map(|(a, b)| a + b).collect();
         worst = worst.max(largest(&sum));
     }
-    report.close("momentum of one disc before / exact", one / (1000.0 * PI * 0.04 * 0.1), 1.0, 1e-12);
+    report.close(
+        "momentum of one disc before / exact",
+        one / (1000.0 * PI * 0.04 * 0.1),
+        1.0,
+        1e-12,
+    );
     // round-off of 700 steps
-    report.at_most("largest total momentum / momentum of one disc", worst / one, 1e-13);
+    report.at_most(
+        "largest total momentum / momentum of one disc",
+        worst / one,
+        1e-13,
+    );
 }

@@ -33,8 +33,10 @@ pub fn frequency_near(time: &[f64], values: &[f64], guess: f64) -> f64 {
     let (Some(first), Some(end)) = (time.first(), time.last()) else {
         return f64::NAN;
     };
-    let window: Vec<f64> =
-        time.iter().map(|t| 0.5 - 0.5 * (TAU * (t - first) / (end - first)).cos()).collect();
+    let window: Vec<f64> = time
+        .iter()
+        .map(|t| 0.5 - 0.5 * (TAU * (t - first) / (end - first)).cos())
+        .collect();
     let weight: f64 = window.iter().sum();
     let mean = window.iter().zip(values).map(|(w, y)| w * y).sum::<f64>() / weight;
     let power = |frequency: f64| {

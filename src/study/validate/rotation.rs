@@ -24,21 +24,50 @@ const BLOCK: &str = include_str!("../../../scenarios/tumbling_block.toml");
 
 fn run(report: &mut Report) -> Result<(), CaseError> {
     let disc = report.run(DISC, &[])?;
-    let (time, momentum) = (disc.column("body_disc", "time"), disc.column("body_disc", "angular_momentum_z"));
+    let (time, momentum) = (
+        disc.column("body_disc", "time"),
+        disc.column("body_disc", "angular_momentum_z"),
+    );
     // ½ m R² ω; points on a lattice of R/10 know the circle to some 1 %
     let exact = 0.5 * 1000.0 * std::f64::consts::PI * 0.25_f64.powi(4) * 2.0;
-    report.close("disc: angular momentum / (m R^2 omega / 2)", momentum[0] / exact, 1.0, 0.02);
-    let change = |history: &[f64]| largest(&history.iter().map(|l| l / history[0] - 1.0).collect::<Vec<_>>());
+    report.close(
+        "disc: angular momentum / (m R^2 omega / 2)",
+        momentum[0] / exact,
+        1.0,
+        0.02,
+    );
+    let change = |history: &[f64]| {
+        largest(
+            &history
+                .iter()
+                .map(|l| l / history[0] - 1.0)
+                .collect::<Vec<_>>(),
+        )
+    };
     // round-off of 5,000 steps; every other transfer here loses 1e-2 or more
-    report.at_most("disc, two turns, APIC: change of angular momentum", change(&momentum), 1e-12);
+    report.at_most(
+        "disc, two turns, APIC: change of angular momentum",
+        change(&momentum),
+        1e-12,
+    );
     let kinetic = disc.column("energy", "kinetic");
     // the sudden start stretches the disc by ρω²R²/E = 0.25 %, and APIC damps the ringing; the turning stays
-    report.close("disc, two turns, APIC: kinetic energy at the end / at 0.02 s", last(&kinetic) / kinetic[1], 1.0, 5e-3);
+    report.close(
+        "disc, two turns, APIC: kinetic energy at the end / at 0.02 s",
+        last(&kinetic) / kinetic[1],
+        1.0,
+        5e-3,
+    );
     let flip = report.run(DISC, &set(&[("method.transfer", "\"flip\"")]))?;
     let flip_momentum = flip.column("body_disc", "angular_momentum_z");
     let kept = last(&flip_momentum) / flip_momentum[0];
     // FLIP's loss is known, and is a property to be seen: 10 % here. None at all would mean that this is not FLIP.
-    report.close("disc, two turns, FLIP: angular momentum kept", kept, 0.9, 0.05);
+    report.close(
+        "disc, two turns, FLIP: angular momentum kept",
+        kept,
+        0.9,
+        0.05,
+    );
 
     let block = report.run(BLOCK, &[])?;
     let axes = ["x", "y", "z"];
@@ -49,7 +78,8 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     let mut worst: f64 = 0.0;
     for a in 0..3 {
         // a row of points s = 0.05 m apart, tiling an edge e, has the second moment (e² − s²)/12, not e²/12
-        let inertia = mass / 12.0 * (square[(a + 1) % 3] + square[(a + 2) % 3] - 2.0 * 0.05_f64.powi(2));
+        let inertia =
+            mass / 12.0 * (square[(a + 1) % 3] + square[(a + 2) % 3] - 2.0 * 0.05_f64.powi(2));
         let omega = [1.0, 2.0, 3.0][a];
         report.close(
             format!("block: angular momentum {} / that of its points", axes[a]),
@@ -57,25 +87,57 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
             1.0,
             1e-12,
         );
-        worst = worst.max(largest(&tumbling[a].iter().map(|l| l - tumbling[a][0]).collect::<Vec<_>>()));
+        worst = worst.max(largest(
+            &tumbling[a]
+                .iter()
+                .map(|l| l - tumbling[a][0])
+                .collect::<Vec<_>>(),
+        ));
     }
-    report.at_most("block, one turn, APIC: change of the vector / its size", worst / size, 1e-12);
+    report.at_most(
+        "block, one turn, APIC: change of the vector / its size",
+        worst / size,
+        1e-12,
+    );
     let kinetic = block.column("energy", "kinetic");
-    report.close("block, one turn, APIC: kinetic energy at the end / at 0.02 s", last(&kinetic) / kinetic[1], 1.0, 0.02);
+    report.close(
+        "block, one turn, APIC: kinetic energy at the end / at 0.02 s",
+        last(&kinetic) / kinetic[1],
+        1.0,
+        0.02,
+    );
 
     let ratio = |history: &[f64]| history.iter().map(|l| l / history[0]).collect::<Vec<f64>>();
     let (apic, flipped) = (ratio(&momentum), ratio(&flip_momentum));
-    report.table("disc", &[("time", &time), ("apic", &apic), ("flip", &flipped)]);
+    report.table(
+        "disc",
+        &[("time", &time), ("apic", &apic), ("flip", &flipped)],
+    );
     let block_time = block.column("body_block", "time");
     report.table(
         "block",
-        &[("time", &block_time), ("x", &tumbling[0]), ("y", &tumbling[1]), ("z", &tumbling[2])],
+        &[
+            ("time", &block_time),
+            ("x", &tumbling[0]),
+            ("y", &tumbling[1]),
+            ("z", &tumbling[2]),
+        ],
     );
-    let dashed = |name: &str, end: f64, value: f64| Series::new(name, vec![(0.0, value), (end, value)], Style::Dashed);
+    let dashed = |name: &str, end: f64, value: f64| {
+        Series::new(name, vec![(0.0, value), (end, value)], Style::Dashed)
+    };
     let block_flip = report.run(BLOCK, &set(&[("method.transfer", "\"flip\"")]))?;
-    let flipped_block = axes.map(|axis| block_flip.column("body_block", &format!("angular_momentum_{axis}")));
+    let flipped_block =
+        axes.map(|axis| block_flip.column("body_block", &format!("angular_momentum_{axis}")));
     let change = |vector: &[Vec<f64>; 3]| -> Vec<f64> {
-        let row = |i: usize| vector.iter().map(|l| (l[i] - l[0]).powi(2)).sum::<f64>().sqrt() / size;
+        let row = |i: usize| {
+            vector
+                .iter()
+                .map(|l| (l[i] - l[0]).powi(2))
+                .sum::<f64>()
+                .sqrt()
+                / size
+        };
         (0..vector[0].len()).map(row).collect()
     };
     let chart = |title: &str, y_label: &str, series| LineChart {
@@ -108,7 +170,11 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
                     "|L − initial L| / |L|",
                     vec![
                         Series::new("APIC", points(&block_time, &change(&tumbling)), Style::Line),
-                        Series::new("FLIP", points(&block_time, &change(&flipped_block)), Style::Line),
+                        Series::new(
+                            "FLIP",
+                            points(&block_time, &change(&flipped_block)),
+                            Style::Line,
+                        ),
                         dashed("one rounding", last(&block_time), f64::EPSILON),
                     ],
                 )

@@ -21,27 +21,62 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     let run = report.run_with_frames(SCENARIO, &[])?;
     let frames = &run.memory.frames;
     let component = |a: usize, b: usize| -> Vec<Vec<f64>> {
-        frames.iter().map(|frame| frame.points.iter().map(|point| point.stress[a][b]).collect()).collect()
+        frames
+            .iter()
+            .map(|frame| {
+                frame
+                    .points
+                    .iter()
+                    .map(|point| point.stress[a][b])
+                    .collect()
+            })
+            .collect()
     };
     let worst = |stresses: &[Vec<f64>], exact: &dyn Fn(usize) -> f64| {
-        let errors = stresses.iter().enumerate().flat_map(|(row, all)| all.iter().map(move |s| (s - exact(row)).abs()));
+        let errors = stresses
+            .iter()
+            .enumerate()
+            .flat_map(|(row, all)| all.iter().map(move |s| (s - exact(row)).abs()));
         // a NaN is the worst of all
-        errors.fold(0.0, |most: f64, error| if error <= most { most } else { error })
+        errors.fold(
+            0.0,
+            |most: f64, error| if error <= most { most } else { error },
+        )
     };
     let (along, across, shear) = (component(1, 1), component(0, 0), component(0, 1));
     let end = &along[along.len() - 1..];
     // half of the last published digit
-    report.at_most("published: largest |stress_yy + 1| of the four points (Pa)", worst(end, &|_| -1.0), 5e-9);
+    report.at_most(
+        "published: largest |stress_yy + 1| of the four points (Pa)",
+        worst(end, &|_| -1.0),
+        5e-9,
+    );
     // the law's own figure in every step, to round-off of ten additions
-    report.at_most("every step: largest |stress_yy - E strain| (Pa)", worst(&along, &|row| -0.1 * row as f64), 1e-12);
-    report.at_most("every step: largest |stress_xx|, |stress_xy| (Pa)", worst(&across, &|_| 0.0).max(worst(&shear, &|_| 0.0)), 1e-12);
+    report.at_most(
+        "every step: largest |stress_yy - E strain| (Pa)",
+        worst(&along, &|row| -0.1 * row as f64),
+        1e-12,
+    );
+    report.at_most(
+        "every step: largest |stress_xx|, |stress_xy| (Pa)",
+        worst(&across, &|_| 0.0).max(worst(&shear, &|_| 0.0)),
+        1e-12,
+    );
     let time = run.column("energy", "time");
     let first: Vec<f64> = along.iter().map(|all| all[0]).collect();
     let exact: Vec<f64> = time.iter().map(|t| -10.0 * t).collect();
     // The top is pushed with the force that the points carry: E ε · 1 m², less by the strain, as the grid's cell is not shortened.
     let reaction = last(&run.column("boundary_top", "reaction_y"));
-    report.close("force of the top in the last step (N)", reaction, -1.0, 0.002);
-    report.table("stress", &[("time", &time), ("computed", &first), ("exact", &exact)]);
+    report.close(
+        "force of the top in the last step (N)",
+        reaction,
+        -1.0,
+        0.002,
+    );
+    report.table(
+        "stress",
+        &[("time", &time), ("computed", &first), ("exact", &exact)],
+    );
     report.chart(
         "stress",
         vec![LineChart {
