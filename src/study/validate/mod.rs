@@ -5,6 +5,14 @@
 mod bar1d;
 mod report;
 
+mod axisymmetric;
+mod cantilever;
+mod discs;
+mod history;
+mod rotation;
+mod shear_box;
+mod uniaxial;
+
 pub use report::{Check, Report};
 
 use crate::observe::Memory;
@@ -24,7 +32,15 @@ pub struct Case {
 }
 
 /// Every case, in the order in which a reader should meet them.
-pub const CASES: &[Case] = &[bar1d::CASE];
+pub const CASES: &[Case] = &[
+    bar1d::CASE,
+    uniaxial::CASE,
+    shear_box::CASE,
+    discs::CASE,
+    rotation::CASE,
+    axisymmetric::CASE,
+    cantilever::CASE,
+];
 
 /// Why a case could not be finished.
 #[derive(Debug)]
