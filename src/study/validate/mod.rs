@@ -3,7 +3,14 @@
 //! A case is one file with its scenario beside it, and one line in [`CASES`].
 
 mod bar1d;
+mod column;
+mod compare;
+mod free_fall;
+mod large_bar;
+mod manufactured;
+mod point1d;
 mod report;
+mod swing;
 
 pub use report::{Check, Report};
 
@@ -24,7 +31,14 @@ pub struct Case {
 }
 
 /// Every case, in the order in which a reader should meet them.
-pub const CASES: &[Case] = &[bar1d::CASE];
+pub const CASES: &[Case] = &[
+    point1d::CASE,
+    bar1d::CASE,
+    free_fall::CASE,
+    column::CASE,
+    large_bar::CASE,
+    manufactured::CASE,
+];
 
 /// Why a case could not be finished.
 #[derive(Debug)]
