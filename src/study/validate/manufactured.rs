@@ -35,22 +35,15 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     let large = errors(report, LINE, 0.05, &FINE, "20 ms")?;
     let plane = errors(report, SQUARE, 1e-4, &COARSE, "5 ms")?;
     for (basis, found) in BASES.iter().zip(&small) {
-        judge(report, &format!("1D, A = 1e-4, {basis}"), &FINE, found, least_order(basis), 0.003);
+        judge(report, &format!("1D, A = 1e-4, {basis}"), &FINE, found, basis, 1.0);
     }
     for (basis, found) in BASES.iter().zip(&plane) {
-        judge(report, &format!("2D, A = 1e-4, {basis}"), &COARSE, found, least_order(basis), 0.006);
+        // the error, which starts as t³, has not got far in a quarter of the time
+        judge(report, &format!("2D, A = 1e-4, {basis}"), &COARSE, found, basis, 0.25);
     }
     at_finite_amplitude(report, &large);
     draw(report, &small, &large, &plane);
     Ok(())
-}
-
-/// Of the last two grids: a tenth less than the order, which is reached from below or above.
-fn least_order(basis: &str) -> f64 {
-    match basis {
-        "cubic" => 1.5,
-        _ => 1.9,
-    }
 }
 
 /// For every basis and size, the largest of all times of the root mean square of u − u_exact, over the largest of u_exact.
@@ -96,9 +89,27 @@ fn error(motion: &Recorded, amplitude: f64) -> f64 {
     worst / size
 }
 
-fn judge(report: &mut Report, name: &str, sizes: &[f64], errors: &[f64], least: f64, most: f64) {
+/// What the error may be: spreading by weights of variance v (in cells: 1/4 for the quadratic, 1/3 for the cubic spline, less for
+/// the others) multiplies a wave by 1 − v θ²/2, θ = πh, to the nodes and again back to the points, so that the stiffness that
+/// the motion feels is low by 2vθ². The body force is the difference of the stiffness and of the inertia, in proportion to
+/// M − ρc², M = λ + 2μ: what the stiffness lacks shows by the factor M/(M − ρc²) = 3.9.
+fn largest_error(basis: &str, size: f64) -> f64 {
+    // cubic: half as much again for the lumped masses at the walls
+    let variance = if basis == "cubic" { 0.5 } else { 0.25 };
+    let (lambda, mu) = (0.3 / (1.3 * 0.4), 0.5 / 1.3);
+    let modulus = lambda + 2.0 * mu;
+    2.0 * variance * (PI * size).powi(2) * modulus / (modulus - 1.0)
+}
+
+fn judge(report: &mut Report, name: &str, sizes: &[f64], errors: &[f64], basis: &str, share: f64) {
     let last = sizes.len() - 1;
-    report.at_most(format!("{name}: displacement error at h = 1/{}", 1.0 / sizes[last]), errors[last], most);
+    report.at_most(
+        format!("{name}: displacement error at h = 1/{}", 1.0 / sizes[last]),
+        errors[last],
+        share * largest_error(basis, sizes[last]),
+    );
+    // the order is reached from below by some
+    let least = if basis == "cubic" { 1.5 } else { 1.9 };
     report.at_least(format!("{name}: order of convergence, last two grids"), orders(sizes, errors)[last - 1], least);
 }
 
@@ -107,9 +118,14 @@ fn at_finite_amplitude(report: &mut Report, large: &[Vec<f64>]) {
         let name = format!("1D, A = 0.05, {basis}");
         if *basis == "linear" {
             report.at_least(format!("{name}: error at h = 1/64 / at 1/16 (crossing cells: finer is worse)"), errors[3] / errors[1], 1.0);
-        } else {
-            report.at_most(format!("{name}: displacement error at h = 1/64"), errors[3], 0.02);
-            report.at_least(format!("{name}: error at h = 1/64 / at 1/8 (falls, though not as h^2)"), errors[0] / errors[3], 2.0);
+            continue;
+        }
+        // twice what small motion may have: the unevenness of the points adds about as much
+        report.at_most(format!("{name}: displacement error at h = 1/64"), errors[3], 2.0 * largest_error(basis, FINE[3]).max(0.006));
+        report.at_least(format!("{name}: error at h = 1/8 / at 1/64 (64 if it were second order)"), errors[0] / errors[3], 10.0);
+        if *basis != "cubic" {
+            let order = orders(&FINE, errors)[2];
+            report.at_most(format!("{name}: order of convergence, last two grids (degrades)"), order, 1.6);
         }
     }
 }

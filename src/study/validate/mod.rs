@@ -6,11 +6,13 @@ mod bar1d;
 mod column;
 mod compare;
 mod free_fall;
+mod impact;
 mod large_bar;
 mod manufactured;
 mod point1d;
 mod report;
 mod swing;
+mod wave;
 
 pub use report::{Check, Report};
 
@@ -38,6 +40,8 @@ pub const CASES: &[Case] = &[
     column::CASE,
     large_bar::CASE,
     manufactured::CASE,
+    wave::CASE,
+    impact::CASE,
 ];
 
 /// Why a case could not be finished.
