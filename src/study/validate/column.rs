@@ -43,17 +43,24 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
                 stresses.push((basis.name, points.clone()));
             }
             if size == SIZES[2] {
-                let settled = start(&column, points.len() - 1) - points[points.len() - 1].position[0];
+                let settled =
+                    start(&column, points.len() - 1) - points[points.len() - 1].position[0];
                 let exact = -logarithmic(start(&column, points.len() - 1));
                 report.at_most(
-                    format!("{}, cells of {size} m: settlement of the last point, relative error", basis.name),
+                    format!(
+                        "{}, cells of {size} m: settlement of the last point, relative error",
+                        basis.name
+                    ),
                     (settled / exact - 1.0).abs(),
                     basis.settlement,
                 );
             }
         }
         report.at_most(
-            format!("{}, cells of 0.25 m: stress, rms error / (density g L)", basis.name),
+            format!(
+                "{}, cells of 0.25 m: stress, rms error / (density g L)",
+                basis.name
+            ),
             errors[2],
             basis.stress,
         );
@@ -85,16 +92,40 @@ struct Limits {
 // The linear basis has lost a point's whole share of the force wherever a point has crossed: its limit says only that the column
 // still stands.
 const BASES: [Limits; 4] = [
-    Limits { name: "linear", stress: 0.15, settlement: 0.15, order: -1.0 },
-    Limits { name: "gimp", stress: 0.01, settlement: 0.003, order: 0.7 },
-    Limits { name: "quadratic", stress: 0.01, settlement: 0.002, order: -0.3 },
-    Limits { name: "cubic", stress: 0.006, settlement: 0.002, order: 0.3 },
+    Limits {
+        name: "linear",
+        stress: 0.15,
+        settlement: 0.15,
+        order: -1.0,
+    },
+    Limits {
+        name: "gimp",
+        stress: 0.01,
+        settlement: 0.003,
+        order: 0.7,
+    },
+    Limits {
+        name: "quadratic",
+        stress: 0.01,
+        settlement: 0.002,
+        order: -0.3,
+    },
+    Limits {
+        name: "cubic",
+        stress: 0.006,
+        settlement: 0.002,
+        order: 0.3,
+    },
 ];
 
 fn settle(report: &mut Report, basis: &str, rate: &str, size: f64) -> Result<Recorded, CaseError> {
     let size = format!("{size} m");
     // the linear basis and APIC do not go together: a node that a point has just reached has next to no mass
-    let (transfer, update) = if basis == "linear" { ("flip", "musl") } else { ("apic", "usl") };
+    let (transfer, update) = if basis == "linear" {
+        ("flip", "musl")
+    } else {
+        ("apic", "usl")
+    };
     let overrides = [
         ("method.basis", basis),
         ("method.transfer", transfer),
@@ -108,7 +139,12 @@ fn settle(report: &mut Report, basis: &str, rate: &str, size: f64) -> Result<Rec
 
 /// The points at the end.
 fn rest(column: &Recorded) -> Vec<Point> {
-    column.memory.frames.last().map(|frame| frame.points.clone()).unwrap_or_default()
+    column
+        .memory
+        .frames
+        .last()
+        .map(|frame| frame.points.clone())
+        .unwrap_or_default()
 }
 
 /// Initial position of a point, m.
@@ -150,7 +186,10 @@ fn refine(report: &mut Report, columns: &[Vec<f64>]) {
     for (basis, errors) in BASES.iter().zip(&columns[1..]) {
         let order = orders(&SIZES, errors);
         report.at_least(
-            format!("{}: order of convergence of the stress, 1 m to 0.25 m", basis.name),
+            format!(
+                "{}: order of convergence of the stress, 1 m to 0.25 m",
+                basis.name
+            ),
             0.5 * (order[0] + order[1]),
             basis.order,
         );
@@ -161,7 +200,11 @@ fn refine(report: &mut Report, columns: &[Vec<f64>]) {
         columns[1][2] / columns[2][2],
         5.0,
     );
-    report.at_most("linear: order of convergence of the stress (none)", 0.5 * orders(&SIZES, &columns[1]).iter().sum::<f64>(), 0.5);
+    report.at_most(
+        "linear: order of convergence of the stress (none)",
+        0.5 * orders(&SIZES, &columns[1]).iter().sum::<f64>(),
+        0.5,
+    );
 }
 
 /// The law decides how far the column settles, not what it carries.
@@ -175,28 +218,75 @@ fn other_laws(report: &mut Report) -> Result<(), CaseError> {
         (settled / -kirchhoff(start(&column, last)) - 1.0).abs(),
         BASES[2].settlement,
     );
-    report.at_most("J stress = E ln F: stress, rms error / (density g L)", stress_error(&points), BASES[2].stress);
-    report.close("closed form: settlement of the top for stress = E ln F, m", -logarithmic(LENGTH), 0.48374, 1e-5);
-    report.close("closed form: settlement of the top for J stress = E ln F, m", -kirchhoff(LENGTH), 0.45577, 1e-5);
+    report.at_most(
+        "J stress = E ln F: stress, rms error / (density g L)",
+        stress_error(&points),
+        BASES[2].stress,
+    );
+    report.close(
+        "closed form: settlement of the top for stress = E ln F, m",
+        -logarithmic(LENGTH),
+        0.48374,
+        1e-5,
+    );
+    report.close(
+        "closed form: settlement of the top for J stress = E ln F, m",
+        -kirchhoff(LENGTH),
+        0.45577,
+        1e-5,
+    );
     Ok(())
 }
 
 fn draw(report: &mut Report, columns: &[Vec<f64>], stresses: &[(&str, Vec<Point>)]) {
     let header = ["cell_size", "linear", "gimp", "quadratic", "cubic"];
-    let table: Vec<(&str, &[f64])> = header.iter().zip(columns).map(|(name, column)| (*name, &column[..])).collect();
+    let table: Vec<(&str, &[f64])> = header
+        .iter()
+        .zip(columns)
+        .map(|(name, column)| (*name, &column[..]))
+        .collect();
     report.table("stress_error", &table);
     let profile = |(name, points): &(&str, Vec<Point>), style: Style| {
         let heights: Vec<f64> = (0..points.len()).map(|i| middle(i, points.len())).collect();
-        let stress: Vec<f64> = points.iter().map(|point| 1e-3 * point.stress[0][0]).collect();
+        let stress: Vec<f64> = points
+            .iter()
+            .map(|point| 1e-3 * point.stress[0][0])
+            .collect();
         curve(*name, &heights, &stress, style)
     };
-    let mut series: Vec<_> = [0, 2].iter().map(|&i| profile(&stresses[i], Style::LineMarkers)).collect();
-    series.push(curve("exact", &[0.0, LENGTH], &[-1e-3 * WEIGHT * LENGTH, 0.0], Style::Dashed));
-    let profiles = chart("Stress in the column, cells of 0.5 m", "initial height (m)", "stress (kPa)", series);
-    let mut series: Vec<_> =
-        BASES.iter().zip(&columns[1..]).map(|(basis, errors)| curve(basis.name, &SIZES, errors, Style::LineMarkers)).collect();
-    series.push(curve("first order", &SIZES, &SIZES.map(|h| 0.01 * h), Style::Dashed));
-    let mut errors = chart("Error of the stress", "cell size (m)", "rms error / (density g L)", series);
+    let mut series: Vec<_> = [0, 2]
+        .iter()
+        .map(|&i| profile(&stresses[i], Style::LineMarkers))
+        .collect();
+    series.push(curve(
+        "exact",
+        &[0.0, LENGTH],
+        &[-1e-3 * WEIGHT * LENGTH, 0.0],
+        Style::Dashed,
+    ));
+    let profiles = chart(
+        "Stress in the column, cells of 0.5 m",
+        "initial height (m)",
+        "stress (kPa)",
+        series,
+    );
+    let mut series: Vec<_> = BASES
+        .iter()
+        .zip(&columns[1..])
+        .map(|(basis, errors)| curve(basis.name, &SIZES, errors, Style::LineMarkers))
+        .collect();
+    series.push(curve(
+        "first order",
+        &SIZES,
+        &SIZES.map(|h| 0.01 * h),
+        Style::Dashed,
+    ));
+    let mut errors = chart(
+        "Error of the stress",
+        "cell size (m)",
+        "rms error / (density g L)",
+        series,
+    );
     (errors.x_log, errors.y_log) = (true, true);
     report.chart("stress", vec![profiles, errors]);
 }

@@ -42,20 +42,40 @@ const METHODS: [(&str, &str, &str); 8] = [
 fn run(report: &mut Report) -> Result<(), CaseError> {
     let mut shown = None;
     for (basis, transfer, update) in METHODS {
-        let method = [("method.basis", basis), ("method.transfer", transfer), ("method.update", update)];
+        let method = [
+            ("method.basis", basis),
+            ("method.transfer", transfer),
+            ("method.update", update),
+        ];
         let flight = report.run_with_frames(SCENARIO, &set(&method))?;
         let worst = Errors::of(&flight, V0);
         let mut drop = method.to_vec();
         drop.push(("constants.v0", "0 m/s"));
         let dropped = report.run(SCENARIO, &set(&drop))?;
         let name = format!("{basis} {transfer} {update}");
-        report.at_most(format!("{name}: position, largest distance from the parabola in steps, m"), worst.position, ROUND_OFF);
-        report.at_most(format!("{name}: velocity, largest error / v0"), worst.velocity, ROUND_OFF);
+        report.at_most(
+            format!("{name}: position, largest distance from the parabola in steps, m"),
+            worst.position,
+            ROUND_OFF,
+        );
+        report.at_most(
+            format!("{name}: velocity, largest error / v0"),
+            worst.velocity,
+            ROUND_OFF,
+        );
         // velocities of 1 m/s with a relative error of 1e-16, differing over 0.1 m, make strains of 1e-15 a second, and each of the
         // thousand steps may add its own; a code that makes stress makes very much more
-        report.at_most(format!("{name}: stress, largest / E"), worst.stress, ROUND_OFF);
+        report.at_most(
+            format!("{name}: stress, largest / E"),
+            worst.stress,
+            ROUND_OFF,
+        );
         let heights = [&flight, &dropped].map(|run| run.column("body_block", "position_y"));
-        report.at_most(format!("{name}: height with and without sideways speed, largest difference, m"), largest(&heights[0], &heights[1]), ROUND_OFF);
+        report.at_most(
+            format!("{name}: height with and without sideways speed, largest difference, m"),
+            largest(&heights[0], &heights[1]),
+            ROUND_OFF,
+        );
         if (basis, transfer, update) == ("quadratic", "apic", "usl") {
             energy(report, &flight);
             shown = Some(flight);
@@ -93,19 +113,31 @@ impl Errors {
                 stress.extend(point.stress.iter().flatten().map(|stress| stress / 1e4));
             }
         }
-        let [position, velocity, stress] = [position, velocity, stress].map(|errors| largest(&errors, &vec![0.0; errors.len()]));
-        Self { position, velocity, stress }
+        let [position, velocity, stress] =
+            [position, velocity, stress].map(|errors| largest(&errors, &vec![0.0; errors.len()]));
+        Self {
+            position,
+            velocity,
+            stress,
+        }
     }
 }
 
 /// What is lost in height is won in speed.
 fn energy(report: &mut Report, flight: &Recorded) {
-    let [time, kinetic, potential] = ["time", "kinetic", "potential"].map(|column| flight.column("energy", column));
+    let [time, kinetic, potential] =
+        ["time", "kinetic", "potential"].map(|column| flight.column("energy", column));
     let mass = 1000.0 * 0.4 * 0.4;
     let exact = map(&time, |t| 0.5 * mass * (V0 * V0 + (W0 - G * t).powi(2)));
-    report.at_most("kinetic energy against the closed form: largest error, relative", largest(&kinetic, &exact) / exact[0], ROUND_OFF);
+    report.at_most(
+        "kinetic energy against the closed form: largest error, relative",
+        largest(&kinetic, &exact) / exact[0],
+        ROUND_OFF,
+    );
     // y falls g t Δt/2 more than the parabola
-    let sum: Vec<f64> = (0..time.len()).map(|i| kinetic[i] + potential[i] + 0.5 * mass * G * G * DT * time[i]).collect();
+    let sum: Vec<f64> = (0..time.len())
+        .map(|i| kinetic[i] + potential[i] + 0.5 * mass * G * G * DT * time[i])
+        .collect();
     report.at_most(
         "kinetic + potential energy, beside the known first-order fall: largest change, relative",
         largest(&sum, &vec![sum[0]; sum.len()]) / exact[0],
@@ -118,7 +150,16 @@ fn draw(report: &mut Report, flight: &Recorded) {
     let [x, y] = ["position_x", "position_y"].map(|column| flight.column("body_block", column));
     let exact_x = map(&time, |t| CENTER[0] + V0 * t);
     let exact_y = map(&time, |t| CENTER[1] + W0 * t - 0.5 * G * t * t);
-    report.table("flight", &[("time", &time), ("x", &x), ("y", &y), ("x_exact", &exact_x), ("y_exact", &exact_y)]);
+    report.table(
+        "flight",
+        &[
+            ("time", &time),
+            ("x", &x),
+            ("y", &y),
+            ("x_exact", &exact_x),
+            ("y_exact", &exact_y),
+        ],
+    );
     let thin = |column: &[f64]| -> Vec<f64> { column.iter().copied().step_by(5).collect() };
     let path = chart(
         "Path of the centre (quadratic, APIC, USL)",
@@ -129,7 +170,8 @@ fn draw(report: &mut Report, flight: &Recorded) {
             curve("parabola", &exact_x, &exact_y, Style::Dashed),
         ],
     );
-    let [kinetic, potential] = ["kinetic", "potential"].map(|column| flight.column("energy", column));
+    let [kinetic, potential] =
+        ["kinetic", "potential"].map(|column| flight.column("energy", column));
     let start = potential[0];
     let gained = map(&potential, |potential| potential - start);
     let sum: Vec<f64> = kinetic.iter().zip(&gained).map(|(k, p)| k + p).collect();
@@ -142,7 +184,12 @@ fn draw(report: &mut Report, flight: &Recorded) {
         "energy (J)",
         vec![
             curve("kinetic", &thin(&time), &thin(&kinetic), Style::Markers),
-            curve("potential, from the start", &thin(&time), &thin(&gained), Style::Markers),
+            curve(
+                "potential, from the start",
+                &thin(&time),
+                &thin(&gained),
+                Style::Markers,
+            ),
             curve("sum", &time, &sum, Style::Line),
             curve("exact", &time, &exact, Style::Dashed),
             curve("", &time, &fallen, Style::Dashed),

@@ -49,8 +49,20 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     draw(report, &all)
 }
 
-fn swing(report: &mut Report, basis: &str, cells: f64, per_cell: u32, speed: f64, end: f64) -> Result<Recorded, CaseError> {
-    let texts = [format!("{} m", LENGTH / cells), format!("{speed} m/s"), format!("{end} s"), per_cell.to_string()];
+fn swing(
+    report: &mut Report,
+    basis: &str,
+    cells: f64,
+    per_cell: u32,
+    speed: f64,
+    end: f64,
+) -> Result<Recorded, CaseError> {
+    let texts = [
+        format!("{} m", LENGTH / cells),
+        format!("{speed} m/s"),
+        format!("{end} s"),
+        per_cell.to_string(),
+    ];
     let overrides = [
         ("method.basis", basis),
         ("grid.cell_size", &texts[0]),
@@ -69,9 +81,15 @@ fn compare(bar: &Recorded, speed: f64) -> Errors {
         reference.advance(pair[1].time - pair[0].time, 0.02);
         let x = |i: usize| start(frames, i);
         let error = |i: usize, computed: f64| computed - reference.stress(x(i));
-        stress += root_mean(&pair[1].points, |i, point| error(i, point.stress[0][0]).powi(2)).powi(2);
+        stress += root_mean(&pair[1].points, |i, point| {
+            error(i, point.stress[0][0]).powi(2)
+        })
+        .powi(2);
         let moved = |i: usize, at: f64| at - x(i) - reference.displacement(x(i));
-        displacement += root_mean(&pair[1].points, |i, point| moved(i, point.position[0]).powi(2)).powi(2);
+        displacement += root_mean(&pair[1].points, |i, point| {
+            moved(i, point.position[0]).powi(2)
+        })
+        .powi(2);
     }
     let count = (frames.len() - 1) as f64;
     let omega = std::f64::consts::PI * WAVE_SPEED / (2.0 * LENGTH);
@@ -92,17 +110,38 @@ fn start(frames: &[crate::observe::Frame], point: usize) -> f64 {
 // and quadratic with two points a cell (so that their stress does not converge), a tenth of that for cubic. The limits are
 // what this leaves, rounded up by a third or so; a density wrong by 1 % alone moves the displacement by 1.3 %.
 fn judge(report: &mut Report, all: &[Vec<Errors>]) {
-    let limits = [(0.0, 0.0, 0.0), (0.04, 0.003, 0.5), (0.04, 0.003, 0.5), (0.015, 0.0015, 1.3)];
+    let limits = [
+        (0.0, 0.0, 0.0),
+        (0.04, 0.003, 0.5),
+        (0.04, 0.003, 0.5),
+        (0.015, 0.0015, 1.3),
+    ];
     for ((basis, errors), (stress, displacement, least)) in BASES.iter().zip(all).zip(limits) {
         let finest = &errors[CELLS.len() - 1];
         if *basis == "linear" {
-            report.at_least("linear, 64 cells: stress, rms error / (E v0 / c) (cell crossing)", finest.stress, 0.1);
+            report.at_least(
+                "linear, 64 cells: stress, rms error / (E v0 / c) (cell crossing)",
+                finest.stress,
+                0.1,
+            );
             let ratio = finest.stress / errors[0].stress;
-            report.at_least("linear: stress error with 64 cells / with 16 (finer is worse)", ratio, 1.0);
+            report.at_least(
+                "linear: stress error with 64 cells / with 16 (finer is worse)",
+                ratio,
+                1.0,
+            );
             continue;
         }
-        report.at_most(format!("{basis}, 64 cells: stress, rms error / (E v0 / c)"), finest.stress, stress);
-        report.at_most(format!("{basis}, 64 cells: displacement, rms error / (v0 / omega)"), finest.displacement, displacement);
+        report.at_most(
+            format!("{basis}, 64 cells: stress, rms error / (E v0 / c)"),
+            finest.stress,
+            stress,
+        );
+        report.at_most(
+            format!("{basis}, 64 cells: displacement, rms error / (v0 / omega)"),
+            finest.displacement,
+            displacement,
+        );
         let column: Vec<f64> = errors.iter().map(|errors| errors.displacement).collect();
         let order = orders(&CELLS.map(|cells| LENGTH / cells), &column);
         report.at_least(
@@ -113,7 +152,9 @@ fn judge(report: &mut Report, all: &[Vec<Errors>]) {
     }
     for (basis, errors) in [("gimp", &all[1]), ("quadratic", &all[2])] {
         report.at_least(
-            format!("{basis}: stress error with 64 cells / with 16 (two points a cell: no convergence)"),
+            format!(
+                "{basis}: stress error with 64 cells / with 16 (two points a cell: no convergence)"
+            ),
             errors[2].stress / errors[0].stress,
             0.5,
         );
@@ -123,18 +164,38 @@ fn judge(report: &mut Report, all: &[Vec<Errors>]) {
 /// 20 % of strain, half a period, four points a cell: the wave steepens, and points cross many cells.
 fn larger_still(report: &mut Report) -> Result<(), CaseError> {
     // gimp points keep their initial extent, and where the bar is stretched gaps open between them
-    for (basis, stress, displacement) in [("gimp", 0.2, 0.03), ("quadratic", 0.1, 0.006), ("cubic", 0.01, 0.0005)] {
+    for (basis, stress, displacement) in [
+        ("gimp", 0.2, 0.03),
+        ("quadratic", 0.1, 0.006),
+        ("cubic", 0.01, 0.0005),
+    ] {
         let name = format!("{basis}, 64 cells of 4 points, v0 = 2 m/s, half a period");
         let errors = compare(&swing(report, basis, 64.0, 4, 2.0, 5.0)?, 2.0);
-        report.at_most(format!("{name}: stress, rms error / (E v0 / c)"), errors.stress, stress);
-        report.at_most(format!("{name}: displacement, rms error / (v0 / omega)"), errors.displacement, displacement);
+        report.at_most(
+            format!("{name}: stress, rms error / (E v0 / c)"),
+            errors.stress,
+            stress,
+        );
+        report.at_most(
+            format!("{name}: displacement, rms error / (v0 / omega)"),
+            errors.displacement,
+            displacement,
+        );
         if basis == "gimp" {
-            report.at_least(format!("{name}: stress error (degrades)"), errors.stress, 0.05);
+            report.at_least(
+                format!("{name}: stress error (degrades)"),
+                errors.stress,
+                0.05,
+            );
         }
     }
     let mut reference = Swing::new(LENGTH, 1.0, WAVE_SPEED * WAVE_SPEED, 2.0);
     reference.advance(5.0, 0.02);
-    report.at_most("reference, v0 = 2 m/s: what its last modes still hold, relative", reference.tail(), 1e-6);
+    report.at_most(
+        "reference, v0 = 2 m/s: what its last modes still hold, relative",
+        reference.tail(),
+        1e-6,
+    );
     Ok(())
 }
 
@@ -143,7 +204,10 @@ fn draw(report: &mut Report, all: &[Vec<Errors>]) -> Result<(), CaseError> {
     let mut panels = Vec::new();
     let mut columns: Vec<(String, Vec<f64>)> = vec![("cell_size".into(), sizes.to_vec())];
     for (what, pick) in [
-        ("stress", (|errors: &Errors| errors.stress) as fn(&Errors) -> f64),
+        (
+            "stress",
+            (|errors: &Errors| errors.stress) as fn(&Errors) -> f64,
+        ),
         ("displacement", |errors: &Errors| errors.displacement),
     ] {
         let mut series = Vec::new();
@@ -153,13 +217,26 @@ fn draw(report: &mut Report, all: &[Vec<Errors>]) -> Result<(), CaseError> {
             columns.push((format!("{basis}_{what}"), column));
         }
         if what == "displacement" {
-            series.push(curve("second order", &sizes, &sizes.map(|h| 0.01 * h * h), Style::Dashed));
+            series.push(curve(
+                "second order",
+                &sizes,
+                &sizes.map(|h| 0.01 * h * h),
+                Style::Dashed,
+            ));
         }
-        let mut panel = chart(&format!("Error of the {what}, one period"), "cell size (m)", "relative rms error", series);
+        let mut panel = chart(
+            &format!("Error of the {what}, one period"),
+            "cell size (m)",
+            "relative rms error",
+            series,
+        );
         (panel.x_log, panel.y_log) = (true, true);
         panels.push(panel);
     }
-    let table: Vec<(&str, &[f64])> = columns.iter().map(|(name, column)| (&name[..], &column[..])).collect();
+    let table: Vec<(&str, &[f64])> = columns
+        .iter()
+        .map(|(name, column)| (&name[..], &column[..]))
+        .collect();
     report.table("errors", &table);
 
     // the stress along the bar where it is stretched most
@@ -177,7 +254,15 @@ fn draw(report: &mut Report, all: &[Vec<Errors>]) -> Result<(), CaseError> {
     let x: Vec<f64> = (0..=100).map(|i| 0.25 * f64::from(i)).collect();
     let stress: Vec<f64> = x.iter().map(|&x| reference.stress(x)).collect();
     profiles.push(curve("reference", &x, &stress, Style::Dashed));
-    panels.insert(0, chart("Stress at a quarter of the period, 32 cells", "initial position (m)", "stress (Pa)", profiles));
+    panels.insert(
+        0,
+        chart(
+            "Stress at a quarter of the period, 32 cells",
+            "initial position (m)",
+            "stress (Pa)",
+            profiles,
+        ),
+    );
     report.chart("errors", panels);
     Ok(())
 }

@@ -35,11 +35,25 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     let large = errors(report, LINE, 0.05, &FINE, "20 ms")?;
     let plane = errors(report, SQUARE, 1e-4, &COARSE, "5 ms")?;
     for (basis, found) in BASES.iter().zip(&small) {
-        judge(report, &format!("1D, A = 1e-4, {basis}"), &FINE, found, basis, 1.0);
+        judge(
+            report,
+            &format!("1D, A = 1e-4, {basis}"),
+            &FINE,
+            found,
+            basis,
+            1.0,
+        );
     }
     for (basis, found) in BASES.iter().zip(&plane) {
         // the error, which starts as t³, has not got far in a quarter of the time
-        judge(report, &format!("2D, A = 1e-4, {basis}"), &COARSE, found, basis, 0.25);
+        judge(
+            report,
+            &format!("2D, A = 1e-4, {basis}"),
+            &COARSE,
+            found,
+            basis,
+            0.25,
+        );
     }
     at_finite_amplitude(report, &large);
     draw(report, &small, &large, &plane);
@@ -47,7 +61,13 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
 }
 
 /// For every basis and size, the largest of all times of the root mean square of u − u_exact, over the largest of u_exact.
-fn errors(report: &mut Report, text: &str, amplitude: f64, sizes: &[f64], end: &str) -> Result<Vec<Vec<f64>>, CaseError> {
+fn errors(
+    report: &mut Report,
+    text: &str,
+    amplitude: f64,
+    sizes: &[f64],
+    end: &str,
+) -> Result<Vec<Vec<f64>>, CaseError> {
     let mut all = Vec::new();
     for basis in BASES {
         let mut found = Vec::new();
@@ -78,7 +98,9 @@ fn error(motion: &Recorded, amplitude: f64) -> f64 {
             let sign = if axis == 0 { 1.0 } else { -1.0 };
             sign * swing * (PI * start[point].position[axis]).sin()
         };
-        let sum = |f: &dyn Fn(usize) -> f64| -> f64 { (0..dimension).map(|axis| f(axis) * f(axis)).sum() };
+        let sum = |f: &dyn Fn(usize) -> f64| -> f64 {
+            (0..dimension).map(|axis| f(axis) * f(axis)).sum()
+        };
         let error = root_mean(&frame.points, |i, point| {
             sum(&|axis| point.position[axis] - start[i].position[axis] - exact(i, axis))
         });
@@ -110,22 +132,42 @@ fn judge(report: &mut Report, name: &str, sizes: &[f64], errors: &[f64], basis: 
     );
     // the order is reached from below by some
     let least = if basis == "cubic" { 1.5 } else { 1.9 };
-    report.at_least(format!("{name}: order of convergence, last two grids"), orders(sizes, errors)[last - 1], least);
+    report.at_least(
+        format!("{name}: order of convergence, last two grids"),
+        orders(sizes, errors)[last - 1],
+        least,
+    );
 }
 
 fn at_finite_amplitude(report: &mut Report, large: &[Vec<f64>]) {
     for (basis, errors) in BASES.iter().zip(large) {
         let name = format!("1D, A = 0.05, {basis}");
         if *basis == "linear" {
-            report.at_least(format!("{name}: error at h = 1/64 / at 1/16 (crossing cells: finer is worse)"), errors[3] / errors[1], 1.0);
+            report.at_least(
+                format!("{name}: error at h = 1/64 / at 1/16 (crossing cells: finer is worse)"),
+                errors[3] / errors[1],
+                1.0,
+            );
             continue;
         }
         // twice what small motion may have: the unevenness of the points adds about as much
-        report.at_most(format!("{name}: displacement error at h = 1/64"), errors[3], 2.0 * largest_error(basis, FINE[3]).max(0.006));
-        report.at_least(format!("{name}: error at h = 1/8 / at 1/64 (64 if it were second order)"), errors[0] / errors[3], 10.0);
+        report.at_most(
+            format!("{name}: displacement error at h = 1/64"),
+            errors[3],
+            2.0 * largest_error(basis, FINE[3]).max(0.006),
+        );
+        report.at_least(
+            format!("{name}: error at h = 1/8 / at 1/64 (64 if it were second order)"),
+            errors[0] / errors[3],
+            10.0,
+        );
         if *basis != "cubic" {
             let order = orders(&FINE, errors)[2];
-            report.at_most(format!("{name}: order of convergence, last two grids (degrades)"), order, 1.6);
+            report.at_most(
+                format!("{name}: order of convergence, last two grids (degrades)"),
+                order,
+                1.6,
+            );
         }
     }
 }
@@ -134,17 +176,40 @@ fn draw(report: &mut Report, small: &[Vec<f64>], large: &[Vec<f64>], plane: &[Ve
     let mut panels = Vec::new();
     for (name, title, sizes, errors) in [
         ("small_1d", "1D, A = 0.0001 (no crossing)", &FINE[..], small),
-        ("large_1d", "1D, A = 0.05 (points cross cells)", &FINE[..], large),
-        ("small_2d", "2D, A = 0.0001 (no crossing)", &COARSE[..], plane),
+        (
+            "large_1d",
+            "1D, A = 0.05 (points cross cells)",
+            &FINE[..],
+            large,
+        ),
+        (
+            "small_2d",
+            "2D, A = 0.0001 (no crossing)",
+            &COARSE[..],
+            plane,
+        ),
     ] {
         let mut columns = vec![("cell_size", sizes)];
-        columns.extend(BASES.iter().zip(errors).map(|(basis, errors)| (*basis, &errors[..])));
+        columns.extend(
+            BASES
+                .iter()
+                .zip(errors)
+                .map(|(basis, errors)| (*basis, &errors[..])),
+        );
         report.table(name, &columns);
-        let mut series: Vec<_> =
-            BASES.iter().zip(errors).map(|(basis, errors)| curve(*basis, sizes, errors, Style::LineMarkers)).collect();
+        let mut series: Vec<_> = BASES
+            .iter()
+            .zip(errors)
+            .map(|(basis, errors)| curve(*basis, sizes, errors, Style::LineMarkers))
+            .collect();
         let slope: Vec<f64> = sizes.iter().map(|h| 4.0 * h * h).collect();
         series.push(curve("second order", sizes, &slope, Style::Dashed));
-        let mut panel = chart(title, "cell size (m)", "displacement error / largest", series);
+        let mut panel = chart(
+            title,
+            "cell size (m)",
+            "displacement error / largest",
+            series,
+        );
         (panel.x_log, panel.y_log) = (true, true);
         panels.push(panel);
     }

@@ -143,13 +143,20 @@ impl Motion {
         let probe = |column: &str| run.column("probe_point", column);
         let (stress, ratio) = (probe("stress_xx"), probe("volume_ratio"));
         let sum = |(kinetic, elastic): (&f64, &f64)| kinetic + elastic;
-        let (kinetic, elastic) = (run.column("energy", "kinetic"), run.column("energy", "elastic"));
+        let (kinetic, elastic) = (
+            run.column("energy", "kinetic"),
+            run.column("energy", "elastic"),
+        );
         Ok(Self {
             time: probe("time"),
             velocity: probe("velocity_x"),
             position: probe("position_x"),
             // τ = Jσ
-            reach: stress.iter().zip(&ratio).map(|(s, j)| s * j / (OMEGA * OMEGA)).collect(),
+            reach: stress
+                .iter()
+                .zip(&ratio)
+                .map(|(s, j)| s * j / (OMEGA * OMEGA))
+                .collect(),
             energy: kinetic.iter().zip(&elastic).map(sum).collect(),
         })
     }
@@ -169,7 +176,8 @@ fn draw(report: &mut Report, musl: &Motion, usl: &Motion, velocity: &[f64], posi
     let time = &musl.time;
     // dots of the computed motion 1/20 period apart, over two periods
     let (shown, every) = (2001, 50);
-    let thin = |column: &[f64]| -> Vec<f64> { column[..shown].iter().copied().step_by(every).collect() };
+    let thin =
+        |column: &[f64]| -> Vec<f64> { column[..shown].iter().copied().step_by(every).collect() };
     let both = |title: &str, label: &str, computed: &[f64], exact: &[f64]| {
         chart(
             title,
@@ -186,7 +194,12 @@ fn draw(report: &mut Report, musl: &Motion, usl: &Motion, velocity: &[f64], posi
     let energy = vec![
         curve("MUSL", time, &millijoules(musl), Style::Line),
         curve("USL", time, &millijoules(usl), Style::Line),
-        curve("exact, and predicted for USL", time, &vec![5.0; time.len()], Style::Dashed),
+        curve(
+            "exact, and predicted for USL",
+            time,
+            &vec![5.0; time.len()],
+            Style::Dashed,
+        ),
         curve("", time, &decay, Style::Dashed),
     ];
     let mut energies = chart("Energy over ten periods", "time (s)", "energy (mJ)", energy);
@@ -203,10 +216,25 @@ fn draw(report: &mut Report, musl: &Motion, usl: &Motion, velocity: &[f64], posi
     report.chart(
         "history",
         vec![
-            both("Velocity of the point (MUSL)", "velocity (m/s)", &musl.velocity, velocity),
-            both("Position of the point (MUSL)", "position (m)", &musl.position, position),
+            both(
+                "Velocity of the point (MUSL)",
+                "velocity (m/s)",
+                &musl.velocity,
+                velocity,
+            ),
+            both(
+                "Position of the point (MUSL)",
+                "position (m)",
+                &musl.position,
+                position,
+            ),
             energies,
-            chart("Error of the velocity (MUSL)", "time (s)", "error / v0", errors),
+            chart(
+                "Error of the velocity (MUSL)",
+                "time (s)",
+                "error / v0",
+                errors,
+            ),
         ],
     );
 }

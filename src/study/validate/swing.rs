@@ -119,7 +119,11 @@ impl Swing {
 
     /// The largest of the last four amplitudes over the largest of all: how well the modes resolve the motion.
     pub fn tail(&self) -> f64 {
-        let most = |amplitudes: &[f64]| amplitudes.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+        let most = |amplitudes: &[f64]| {
+            amplitudes
+                .iter()
+                .fold(0.0, |most: f64, a| most.max(a.abs()))
+        };
         most(&self.amplitudes[MODES - 4..]) / most(&self.amplitudes)
     }
 
