@@ -24,11 +24,11 @@ fn box_and_point(dimension: usize) -> Scene {
 fn fault<const D: usize>(scenario: &Scenario, parallel: bool, spoil: impl Fn(&mut mpm::state::State<D>)) -> Option<Fault> {
     let mut scene = build_with::<D>(scenario, &Computing { parallel: Some(parallel), portable: false });
     scene.solver.start(&mut scene.state).unwrap_or_else(|fault| panic!("{fault}"));
-    scene.solver.step(&mut scene.state, 0.008).unwrap_or_else(|fault| panic!("{fault}"));
+    scene.solver.step(&mut scene.state, 0.004).unwrap_or_else(|fault| panic!("{fault}"));
     spoil(&mut scene.state);
-    let first = scene.solver.step(&mut scene.state, 0.008).err()?;
+    let first = scene.solver.step(&mut scene.state, 0.004).err()?;
     // asking again does not make it better
-    assert_eq!(scene.solver.step(&mut scene.state, 0.008).is_err(), true);
+    assert_eq!(scene.solver.step(&mut scene.state, 0.004).is_err(), true);
     Some(first)
 }
 
@@ -80,7 +80,7 @@ fn a_point_that_is_taken_away_between_steps_is_refused() {
     let mut scene = build::<2>(&flying_box(2).scenario(variant));
     scene.solver.start(&mut scene.state).unwrap_or_else(|fault| panic!("{fault}"));
     scene.state.bodies[0].particles.position.pop();
-    let _ = scene.solver.step(&mut scene.state, 0.008);
+    let _ = scene.solver.step(&mut scene.state, 0.004);
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn stored<const D: usize>(scenario: &Scenario) -> (usize, usize) {
     let mut scene = build::<D>(scenario);
     scene.solver.start(&mut scene.state).unwrap_or_else(|fault| panic!("{fault}"));
     for _ in 0..20 {
-        scene.solver.step(&mut scene.state, 0.008).unwrap_or_else(|fault| panic!("{fault}"));
+        scene.solver.step(&mut scene.state, 0.004).unwrap_or_else(|fault| panic!("{fault}"));
     }
     (scene.solver.stored_nodes(), scene.solver.bytes_per_node())
 }
