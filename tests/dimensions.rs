@@ -47,8 +47,9 @@ fn a_bar_moves_the_same_along_every_axis_of_every_space() {
         for variant in variants() {
             let history = |dimension, axis: usize| {
                 let scene = bar(dimension, axis, law);
-                // recorded a few times, with steps found by the solver
-                let text = scene.text(&variant).replace(&format!("step = {:e}", scene.step), "courant = 0.3");
+                // steps found by the solver where no direction that 1D does not have may become the stiffest
+                let step = if law == "linear_elastic" { "courant = 0.3" } else { "step = 0.02" };
+                let text = scene.text(&variant).replace(&format!("step = {:e}", scene.step), step);
                 let run = simulate(&text, &[], false).unwrap_or_else(|error| panic!("{variant:?}: {error}"));
                 let name = ["x", "y", "z"][axis];
                 let columns = [format!("position_{name}"), format!("velocity_{name}")];
