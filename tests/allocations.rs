@@ -38,9 +38,17 @@ static GLOBAL: Counting = Counting;
 /// Lets a box fly to the next block and back three times and counts on the last way: (allocations, changes of the grid).
 fn count<const D: usize>(scene: &Scene, variant: &Variant, parallel: bool) -> (usize, usize) {
     let scenario = scene.scenario(variant);
-    let mut built = build_with::<D>(&scenario, &Computing { parallel: Some(parallel), portable: false });
+    let mut built = build_with::<D>(
+        &scenario,
+        &Computing {
+            parallel: Some(parallel),
+            portable: false,
+        },
+    );
     let (state, solver) = (&mut built.state, &mut built.solver);
-    solver.start(state).unwrap_or_else(|fault| panic!("{fault}"));
+    solver
+        .start(state)
+        .unwrap_or_else(|fault| panic!("{fault}"));
     // as a rigid body, so that every way is like the one before
     let velocity = state.bodies[0].particles.velocity[0];
     state.bodies[0].particles.velocity.fill(velocity);
@@ -51,7 +59,9 @@ fn count<const D: usize>(scene: &Scene, variant: &Variant, parallel: bool) -> (u
             for _ in 0..scene.steps {
                 let stored = solver.stored_nodes();
                 let before = ALLOCATIONS.load(Relaxed);
-                solver.step(state, scene.step).unwrap_or_else(|fault| panic!("{fault}"));
+                solver
+                    .step(state, scene.step)
+                    .unwrap_or_else(|fault| panic!("{fault}"));
                 counted.0 += ALLOCATIONS.load(Relaxed) - before;
                 counted.1 += usize::from(solver.stored_nodes() != stored);
             }
@@ -66,8 +76,15 @@ fn count<const D: usize>(scene: &Scene, variant: &Variant, parallel: bool) -> (u
 /// One test, because the counter sees all threads.
 #[test]
 fn a_warm_step_allocates_nothing() {
-    let variant = |basis, transfer: &str, update| Variant { basis, transfer: transfer.into(), update };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads can be started");
+    let variant = |basis, transfer: &str, update| Variant {
+        basis,
+        transfer: transfer.into(),
+        update,
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(2)
+        .build()
+        .expect("threads can be started");
     for dimension in 1..=3 {
         for variant in [
             variant("linear", "\"flip\"", "musl"),
@@ -86,10 +103,19 @@ fn a_warm_step_allocates_nothing() {
                 _ => count::<3>(&scene, &variant, parallel),
             };
             let alone = run(false);
-            assert!(alone.1 > 0, "{dimension}D {variant:?}: the box never left its block");
-            assert_eq!(alone.0, 0, "{dimension}D {variant:?}: allocations on one thread");
+            assert!(
+                alone.1 > 0,
+                "{dimension}D {variant:?}: the box never left its block"
+            );
+            assert_eq!(
+                alone.0, 0,
+                "{dimension}D {variant:?}: allocations on one thread"
+            );
             let together = pool.install(|| run(true));
-            assert_eq!(together.0, 0, "{dimension}D {variant:?}: allocations on two threads");
+            assert_eq!(
+                together.0, 0,
+                "{dimension}D {variant:?}: allocations on two threads"
+            );
         }
     }
 }

@@ -14,7 +14,8 @@ fn everywhere(scene: impl Fn(usize) -> Scene, check: impl Fn(&str, &Scene, &Vari
         let scene = scene(dimension);
         for variant in variants() {
             let name = format!("{dimension}D {variant:?}");
-            let run = simulate(&scene.text(&variant), &[], true).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let run = simulate(&scene.text(&variant), &[], true)
+                .unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(run.summary.steps, u64::from(scene.steps), "{name}");
             check(&name, &scene, &variant, &run);
         }
@@ -24,7 +25,11 @@ fn everywhere(scene: impl Fn(usize) -> Scene, check: impl Fn(&str, &Scene, &Vari
 /// Σ m |v| over all points at the start.
 fn motion(run: &Recorded) -> f64 {
     let speed = |v: &[f64; 3]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
-    run.memory.frames[0].points.iter().map(|point| point.mass * speed(&point.velocity)).sum()
+    run.memory.frames[0]
+        .points
+        .iter()
+        .map(|point| point.mass * speed(&point.velocity))
+        .sum()
 }
 
 fn mass(run: &Recorded) -> f64 {
@@ -32,13 +37,18 @@ fn mass(run: &Recorded) -> f64 {
 }
 
 fn last(run: &Recorded, table: &str, column: &str) -> f64 {
-    *run.column(table, column).last().unwrap_or_else(|| panic!("no {column} in {table}"))
+    *run.column(table, column)
+        .last()
+        .unwrap_or_else(|| panic!("no {column} in {table}"))
 }
 
 #[track_caller]
 fn close(name: &str, what: &str, found: f64, expected: f64, tolerance: f64) {
     let wrong = (found - expected).abs();
-    assert!(wrong <= tolerance, "{name}: {what} is {found:e}, not {expected:e}: {wrong:e} > {tolerance:e}");
+    assert!(
+        wrong <= tolerance,
+        "{name}: {what} is {found:e}, not {expected:e}: {wrong:e} > {tolerance:e}"
+    );
 }
 
 #[test]
@@ -58,13 +68,22 @@ fn a_free_body_keeps_its_momentum_and_its_energy_account_closes() {
 #[test]
 fn gravity_gives_mass_times_acceleration_times_time() {
     let gravity = [3.0, -7.0, 11.0];
-    let scene = |dimension| Scene { head: format!("gravity = {}", list(dimension, gravity)), ..flying_box(dimension) };
+    let scene = |dimension| Scene {
+        head: format!("gravity = {}", list(dimension, gravity)),
+        ..flying_box(dimension)
+    };
     everywhere(scene, |name, scene, _, run| {
         let time = run.column("body_box", "time");
         for (axis, g) in AXES[..scene.dimension].iter().zip(gravity) {
             let momentum = run.column("body_box", &format!("momentum_{axis}"));
             for (t, later) in time.iter().zip(&momentum) {
-                close(name, "momentum", *later, momentum[0] + mass(run) * g * t, 2e-13 * motion(run));
+                close(
+                    name,
+                    "momentum",
+                    *later,
+                    momentum[0] + mass(run) * g * t,
+                    2e-13 * motion(run),
+                );
             }
         }
         let residual = run.summary.worst_energy_residual;
@@ -105,7 +124,12 @@ fn loads_gravity_and_reactions_account_for_all_momentum() {
             // the two share the nodes of an edge
             rest += "[[boundary]]\nname = \"floor\"\non.side = \"y_min\"\ncondition = \"wall\"\n";
         }
-        corner_box(dimension, ["0", "0", "0"], &format!("gravity = {}", list(dimension, gravity)), &rest)
+        corner_box(
+            dimension,
+            ["0", "0", "0"],
+            &format!("gravity = {}", list(dimension, gravity)),
+            &rest,
+        )
     };
     everywhere(scene, |name, scene, _, run| {
         let time = run.column("body_box", "time");
@@ -116,7 +140,13 @@ fn loads_gravity_and_reactions_account_for_all_momentum() {
             let given = force[a] + mass(run) * gravity[a];
             for (row, t) in time.iter().enumerate() {
                 let reactions = grip[row] + floor.get(row).unwrap_or(&0.0);
-                close(name, "momentum", momentum[row], given * t + reactions, 1e-12 * mass(run));
+                close(
+                    name,
+                    "momentum",
+                    momentum[row],
+                    given * t + reactions,
+                    1e-12 * mass(run),
+                );
             }
             assert!(grip.last() != Some(&0.0), "{name}: the grip does nothing");
         }
@@ -135,17 +165,35 @@ fn damping_slows_a_rigid_body_exponentially_and_books_what_it_takes() {
         scene
     };
     everywhere(scene, |name, scene, _, run| {
-        let (time, damping) = (run.column("energy", "time"), run.column("energy", "damping"));
+        let (time, damping) = (
+            run.column("energy", "time"),
+            run.column("energy", "damping"),
+        );
         let kinetic = run.column("energy", "kinetic");
         for axis in &AXES[..scene.dimension] {
             let momentum = run.column("body_box", &format!("momentum_{axis}"));
             for (t, later) in time.iter().zip(&momentum) {
-                close(name, "momentum", *later, momentum[0] * (-rate * t).exp(), 1e-12 * momentum[0]);
+                close(
+                    name,
+                    "momentum",
+                    *later,
+                    momentum[0] * (-rate * t).exp(),
+                    1e-12 * momentum[0],
+                );
             }
         }
         for row in 1..time.len() {
-            assert!(damping[row] > damping[row - 1], "{name}: damping {damping:?}");
-            close(name, "damping", damping[row], kinetic[0] - kinetic[row], 1e-12 * kinetic[0]);
+            assert!(
+                damping[row] > damping[row - 1],
+                "{name}: damping {damping:?}"
+            );
+            close(
+                name,
+                "damping",
+                damping[row],
+                kinetic[0] - kinetic[row],
+                1e-12 * kinetic[0],
+            );
         }
     });
 }
@@ -153,9 +201,15 @@ fn damping_slows_a_rigid_body_exponentially_and_books_what_it_takes() {
 #[test]
 fn a_driven_wall_does_reaction_times_velocity() {
     let scene = |dimension| {
-        let driven = format!("condition.driven = {{ velocity = {} }}\n", texts(dimension, ["1 + 4 * t", "free", "3 * t"]));
+        let driven = format!(
+            "condition.driven = {{ velocity = {} }}\n",
+            texts(dimension, ["1 + 4 * t", "free", "3 * t"])
+        );
         let rest = format!("[[boundary]]\nname = \"grip\"\non.side = \"x_min\"\n{driven}");
-        Scene { steps: 30, ..corner_box(dimension, ["0", "0", "0"], "", &rest) }
+        Scene {
+            steps: 30,
+            ..corner_box(dimension, ["0", "0", "0"], "", &rest)
+        }
     };
     everywhere(scene, |name, scene, _, run| {
         let time = run.column("boundary_grip", "time");
@@ -184,7 +238,10 @@ fn a_force_on_a_rigid_body_does_the_work_that_it_moves_with() {
         let load = |axis: usize| {
             let only = [0, 1, 2].map(|a| if a == axis { force[a] } else { 0.0 });
             let everywhere = format!("on.box = {{ min = {} }}", list(dimension, [0.0; 3]));
-            format!("[[load]]\nbody = \"box\"\n{everywhere}\nforce = {}\n", list(dimension, only))
+            format!(
+                "[[load]]\nbody = \"box\"\n{everywhere}\nforce = {}\n",
+                list(dimension, only)
+            )
         };
         let loads: String = (0..dimension).map(load).collect();
         let mut scene = corner_box(dimension, ["1", "1", "2"], "", &loads);
@@ -197,9 +254,21 @@ fn a_force_on_a_rigid_body_does_the_work_that_it_moves_with() {
         let exact: f64 = (0..scene.dimension)
             .map(|a| force[a] * (start[a] * time + 0.5 * force[a] / mass(run) * time * time))
             .sum();
-        close(name, "external work", last(run, "energy", "external_work"), exact, 1e-12 * exact.abs());
+        close(
+            name,
+            "external work",
+            last(run, "energy", "external_work"),
+            exact,
+            1e-12 * exact.abs(),
+        );
         let gained = last(run, "energy", "kinetic") - run.column("energy", "kinetic")[0];
-        close(name, "kinetic energy", gained, exact, 1e-12 * last(run, "energy", "kinetic"));
+        close(
+            name,
+            "kinetic energy",
+            gained,
+            exact,
+            1e-12 * last(run, "energy", "kinetic"),
+        );
     });
 }
 
@@ -212,14 +281,21 @@ fn apic_keeps_angular_momentum() {
         let scene = flying_box(dimension);
         for variant in variants().iter().filter(|variant| variant.is_apic()) {
             let name = format!("{dimension}D {variant:?}");
-            let run = simulate(&scene.text(variant), &[], true).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let run = simulate(&scene.text(variant), &[], true)
+                .unwrap_or_else(|error| panic!("{name}: {error}"));
             let constant = matches!(variant.basis, "quadratic" | "cubic");
             let arm = if dimension == 2 { 10.0 } else { 5.0 };
             for axis in if dimension == 2 { &["z"][..] } else { &AXES } {
                 let spin = run.column("body_box", &format!("angular_momentum_{axis}"));
                 for later in &spin {
                     let tolerance = if constant { 1e-12 } else { 2e-3 };
-                    close(&name, "angular momentum", *later, spin[0], tolerance * arm * motion(&run));
+                    close(
+                        &name,
+                        "angular momentum",
+                        *later,
+                        spin[0],
+                        tolerance * arm * motion(&run),
+                    );
                 }
             }
         }

@@ -18,10 +18,20 @@ fn bits_of<const D: usize>(body: &Body<D>) -> Vec<Vec<u64>> {
     let width = p.stress.len() / p.len();
     let mut points: Vec<Vec<u64>> = (0..p.len())
         .map(|row| {
-            let mut numbers: Vec<f64> = p.position[row].iter().chain(p.velocity[row].iter()).copied().collect();
+            let mut numbers: Vec<f64> = p.position[row]
+                .iter()
+                .chain(p.velocity[row].iter())
+                .copied()
+                .collect();
             numbers.extend(&p.stress[row * width..(row + 1) * width]);
             numbers.extend(p.affine.get(row).iter().flat_map(|affine| affine.iter()));
-            numbers.extend(p.hoop_stress.get(row).iter().chain(&p.hoop_stretch.get(row)).copied());
+            numbers.extend(
+                p.hoop_stress
+                    .get(row)
+                    .iter()
+                    .chain(&p.hoop_stretch.get(row))
+                    .copied(),
+            );
             let mut bits = vec![u64::from(p.id[row])];
             bits.extend(numbers.iter().map(|number| number.to_bits()));
             bits.extend(&memory[row * stride..(row + 1) * stride]);
@@ -42,17 +52,31 @@ struct Outcome {
 }
 
 fn order<const D: usize>(state: &State<D>) -> Vec<Vec<u32>> {
-    state.bodies.iter().map(|body| body.particles.id.clone()).collect()
+    state
+        .bodies
+        .iter()
+        .map(|body| body.particles.id.clone())
+        .collect()
 }
 
 fn run<const D: usize>(scenario: &Scenario, steps: u32, step: f64, parallel: bool) -> Outcome {
-    let mut scene = build_with::<D>(scenario, &Computing { parallel: Some(parallel), portable: false });
+    let mut scene = build_with::<D>(
+        scenario,
+        &Computing {
+            parallel: Some(parallel),
+            portable: false,
+        },
+    );
     let (state, solver) = (&mut scene.state, &mut scene.solver);
-    solver.start(state).unwrap_or_else(|fault| panic!("{fault}"));
+    solver
+        .start(state)
+        .unwrap_or_else(|fault| panic!("{fault}"));
     let mut sorts = 0;
     for _ in 0..steps {
         let before = order(state);
-        solver.step(state, step).unwrap_or_else(|fault| panic!("{fault}"));
+        solver
+            .step(state, step)
+            .unwrap_or_else(|fault| panic!("{fault}"));
         sorts += usize::from(order(state) != before);
     }
     let ledger = solver.ledger();
@@ -60,7 +84,13 @@ fn run<const D: usize>(scenario: &Scenario, steps: u32, step: f64, parallel: boo
         bits: state.bodies.iter().map(bits_of).collect(),
         account: ledger.account(solver.stored(state)),
         reactions: (0..scenario.boundaries.len())
-            .map(|boundary| ledger.impulse(boundary).iter().map(|number| number.to_bits()).collect())
+            .map(|boundary| {
+                ledger
+                    .impulse(boundary)
+                    .iter()
+                    .map(|number| number.to_bits())
+                    .collect()
+            })
             .collect(),
         sorts,
     }
@@ -68,7 +98,12 @@ fn run<const D: usize>(scenario: &Scenario, steps: u32, step: f64, parallel: boo
 
 fn same_on_any_number_of_threads(scene: &Scene) {
     let pools: Vec<_> = [1, 2, 3, 7]
-        .map(|threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started"))
+        .map(|threads| {
+            ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .expect("threads can be started")
+        })
         .into();
     for variant in variants() {
         let scenario = scene.scenario(&variant);
@@ -80,11 +115,17 @@ fn same_on_any_number_of_threads(scene: &Scene) {
         let name = format!("{}D {variant:?}", scene.dimension);
         let alone = run(false);
         // points on a line keep their order
-        assert!(alone.sorts > 0 || scene.dimension == 1, "{name}: points were never re-sorted");
+        assert!(
+            alone.sorts > 0 || scene.dimension == 1,
+            "{name}: points were never re-sorted"
+        );
         for pool in &pools {
             let together = pool.install(|| run(true));
             let threads = pool.current_num_threads();
-            assert!(together == alone, "{name}: {threads} threads give other bits than plain loops");
+            assert!(
+                together == alone,
+                "{name}: {threads} threads give other bits than plain loops"
+            );
         }
     }
 }
@@ -111,7 +152,11 @@ fn two_boxes(dimension: usize) -> Scene {
         + "[[load]]\nbody = \"right\"\non.side = \"x_max\"\nfactor = \"1 + 1 * t\"\n"
         + &format!("force = {}\n", list(dimension, [50.0; 3]))
         + "[[boundary]]\nname = \"wall\"\non.side = \"x_max\"\ncondition = \"wall\"\n"
-        + if dimension > 1 { "[[boundary]]\nname = \"rail\"\non.side = \"y_min\"\ncondition = \"roller\"\n" } else { "" }
+        + if dimension > 1 {
+            "[[boundary]]\nname = \"rail\"\non.side = \"y_min\"\ncondition = \"roller\"\n"
+        } else {
+            ""
+        }
         + "[damping]\nrate = 0.1\n";
     Scene {
         dimension,

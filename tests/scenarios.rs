@@ -19,7 +19,10 @@ fn scenarios(folder: &Path, found: &mut Vec<PathBuf>) {
 #[test]
 fn every_scenario_loads_without_a_warning_and_runs() {
     let mut files = Vec::new();
-    scenarios(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios"), &mut files);
+    scenarios(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios"),
+        &mut files,
+    );
     files.sort();
     assert!(!files.is_empty());
     for path in &files {
@@ -30,8 +33,12 @@ fn every_scenario_loads_without_a_warning_and_runs() {
         let text = fs::read_to_string(path).expect("readable");
         // a thousandth of the run, recorded at its ends
         let end = format!("{:e}", 1e-3 * scenario.end);
-        let shortened = [format!("time.end={end}"), format!("output={{ every = {end} }}")];
-        let run = simulate(&text, &shortened, false).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let shortened = [
+            format!("time.end={end}"),
+            format!("output={{ every = {end} }}"),
+        ];
+        let run =
+            simulate(&text, &shortened, false).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(run.summary.steps > 0, "{name}");
         let residual = run.summary.worst_energy_residual;
         assert!(residual <= 1e-11, "{name}: energy residual {residual:e}");

@@ -20,11 +20,16 @@ struct Dense<const D: usize> {
 
 impl<const D: usize> Dense<D> {
     fn new(counts: [i32; D]) -> Self {
-        Self { counts, nodes: vec![[0.0; 4]; counts.iter().product::<i32>() as usize] }
+        Self {
+            counts,
+            nodes: vec![[0.0; 4]; counts.iter().product::<i32>() as usize],
+        }
     }
 
     fn number(&self, node: &[i32; D]) -> usize {
-        (0..D).fold(0, |number, a| number * self.counts[a] as usize + node[a] as usize)
+        (0..D).fold(0, |number, a| {
+            number * self.counts[a] as usize + node[a] as usize
+        })
     }
 
     fn vector(&self, node: &[i32; D]) -> Vector<D> {
@@ -63,11 +68,21 @@ fn known<const D: usize, const N: usize, B: Basis<N>>(
             let local: [usize; D] = std::array::from_fn(|a| number / N.pow(a as u32) % N);
             let node = std::array::from_fn(|a| axes[a].first + local[a] as i32);
             let product = |slope: usize| -> f64 {
-                (0..D).map(|a| if a == slope { axes[a].slope[local[a]] / h } else { axes[a].weight[local[a]] }).product()
+                (0..D)
+                    .map(|a| {
+                        if a == slope {
+                            axes[a].slope[local[a]] / h
+                        } else {
+                            axes[a].weight[local[a]]
+                        }
+                    })
+                    .product()
             };
             Known {
                 node,
-                arm: Vector::from_fn(|a, _| h * (basis[a].position(node[a], geometry.cells[a]) - x[a])),
+                arm: Vector::from_fn(|a, _| {
+                    h * (basis[a].position(node[a], geometry.cells[a]) - x[a])
+                }),
                 weight: product(D),
                 gradient: Vector::from_fn(|a, _| product(a)),
             }
@@ -101,7 +116,11 @@ fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
                 if matches!(method, Method::Apic) {
                     velocity += p.affine[i] * known.arm;
                 }
-                main.add(&known.node, &(velocity * (p.mass[i] * known.weight)), p.mass[i] * known.weight);
+                main.add(
+                    &known.node,
+                    &(velocity * (p.mass[i] * known.weight)),
+                    p.mass[i] * known.weight,
+                );
             }
             if what.force {
                 let stress: Matrix<D> = unpack(&p.stress[i * width..(i + 1) * width]);
@@ -131,9 +150,14 @@ fn plain_gather<const D: usize, const N: usize, B: Basis<N>>(
     let mut rates = Vec::new();
     for i in 0..p.len() {
         let nodes = known(geometry, basis, &p.position[i]);
-        let mean = |grid: &Dense<D>| -> Vector<D> { nodes.iter().map(|k| grid.vector(&k.node) * k.weight).sum() };
+        let mean = |grid: &Dense<D>| -> Vector<D> {
+            nodes.iter().map(|k| grid.vector(&k.node) * k.weight).sum()
+        };
         let slope = |grid: &Dense<D>| -> Matrix<D> {
-            nodes.iter().map(|k| grid.vector(&k.node) * k.gradient.transpose()).sum()
+            nodes
+                .iter()
+                .map(|k| grid.vector(&k.node) * k.gradient.transpose())
+                .sum()
         };
         let straining = if what.same { main } else { second };
         let hoop_rate = mean(straining)[0] / p.position[i][0];
@@ -145,18 +169,26 @@ fn plain_gather<const D: usize, const N: usize, B: Basis<N>>(
             match method {
                 Method::Pic => p.velocity[i] = mean(main),
                 Method::Flip(ratio) => {
-                    p.velocity[i] = (p.velocity[i] + mean(change)) * ratio + mean(main) * (1.0 - ratio);
+                    p.velocity[i] =
+                        (p.velocity[i] + mean(change)) * ratio + mean(main) * (1.0 - ratio);
                 }
                 Method::Apic => {
                     p.velocity[i] = mean(main);
                     let moment: Matrix<D> = (nodes.iter())
                         .map(|k| main.vector(&k.node) * k.arm.transpose() * k.weight)
                         .sum();
-                    let inertia: Matrix<D> = nodes.iter().map(|k| k.arm * k.arm.transpose() * k.weight).sum();
+                    let inertia: Matrix<D> = nodes
+                        .iter()
+                        .map(|k| k.arm * k.arm.transpose() * k.weight)
+                        .sum();
                     for a in 0..D {
                         // C = B D⁻¹, D diagonal; where a point has no inertia, or the basis says so, the slope
                         let plain = N == 2 || inertia[(a, a)] == 0.0;
-                        let column = if plain { slope(main).column(a).into() } else { moment.column(a) / inertia[(a, a)] };
+                        let column = if plain {
+                            slope(main).column(a).into()
+                        } else {
+                            moment.column(a) / inertia[(a, a)]
+                        };
                         p.affine[i].set_column(a, &column);
                     }
                 }
@@ -206,7 +238,11 @@ fn points<const D: usize>(
             }
         })
     };
-    let block = |x: &[f64; D]| kernels.first(0, x, &geometry.cells).map(|first| first.div_euclid(edge));
+    let block = |x: &[f64; D]| {
+        kernels
+            .first(0, x, &geometry.cells)
+            .map(|first| first.div_euclid(edge))
+    };
     let mut places: Vec<_> = (0..count).map(|i| place(random, i)).collect();
     places.sort_by_key(block);
     let mut occupied: Vec<([i32; D], (u32, u32))> = Vec::new();
@@ -216,7 +252,12 @@ fn points<const D: usize>(
             Some((last, (_, end))) if *last == key => *end += 1,
             _ => occupied.push((key, (row as u32, row as u32 + 1))),
         }
-        let reach = Reach::new(key.map(|b| b * edge), edge, geometry.cells, kernels.shift(0));
+        let reach = Reach::new(
+            key.map(|b| b * edge),
+            edge,
+            geometry.cells,
+            kernels.shift(0),
+        );
         let strayed = std::array::from_fn(|a| x[a] + 0.97 * random.next());
         if row % 3 > 0 && reach.holds(&strayed) {
             *x = strayed;
@@ -230,12 +271,25 @@ fn points<const D: usize>(
     let matrices = numbers(D * D * count);
     let particles = Particles {
         // an end of the grid is hit exactly, whatever the cell size
-        position: places.iter().map(|x| Vector::from_fn(|a, _| geometry.min[a] + h * x[a])).collect(),
-        velocity: vectors.chunks_exact(D).map(Vector::from_column_slice).collect(),
+        position: places
+            .iter()
+            .map(|x| Vector::from_fn(|a, _| geometry.min[a] + h * x[a]))
+            .collect(),
+        velocity: vectors
+            .chunks_exact(D)
+            .map(Vector::from_column_slice)
+            .collect(),
         mass: numbers(count).iter().map(|m| 1.5 + m).collect(),
         initial_volume: numbers(count).iter().map(|v| 1.5 + v).collect(),
         stress: numbers(packed_len(D) * count),
-        affine: if affine { matrices.chunks_exact(D * D).map(Matrix::from_column_slice).collect() } else { Vec::new() },
+        affine: if affine {
+            matrices
+                .chunks_exact(D * D)
+                .map(Matrix::from_column_slice)
+                .collect()
+        } else {
+            Vec::new()
+        },
         hoop_stress: numbers(hoops),
         hoop_stretch: numbers(hoops).iter().map(|s| 1.5 + s).collect(),
         id: (0..count as u32).collect(),
@@ -258,13 +312,23 @@ fn dense<const D: usize>(geometry: &Geometry<D>, blocks: &Blocks<D>, nodes: &[No
 }
 
 #[track_caller]
-fn agree<'a>(name: &str, fast: impl IntoIterator<Item = &'a f64>, plain: impl IntoIterator<Item = &'a f64>) {
-    let (fast, plain): (Vec<f64>, Vec<f64>) = (fast.into_iter().copied().collect(), plain.into_iter().copied().collect());
+fn agree<'a>(
+    name: &str,
+    fast: impl IntoIterator<Item = &'a f64>,
+    plain: impl IntoIterator<Item = &'a f64>,
+) {
+    let (fast, plain): (Vec<f64>, Vec<f64>) = (
+        fast.into_iter().copied().collect(),
+        plain.into_iter().copied().collect(),
+    );
     assert_eq!(fast.len(), plain.len(), "{name}");
     let scale = plain.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     for (i, (fast, plain)) in fast.iter().zip(&plain).enumerate() {
         let close = (fast - plain).abs() <= 1e-13 * scale;
-        assert!(close, "{name}: number {i} is {fast:e}, plain {plain:e}, the largest {scale:e}");
+        assert!(
+            close,
+            "{name}: number {i} is {fast:e}, plain {plain:e}, the largest {scale:e}"
+        );
     }
 }
 
@@ -284,7 +348,12 @@ impl BasisVisitor for EveryPass {
 }
 
 impl EveryPass {
-    fn dimensions<const N: usize, B: Basis<N>, T: Transfer>(&self, basis: B, transfer: T, method: Method) {
+    fn dimensions<const N: usize, B: Basis<N>, T: Transfer>(
+        &self,
+        basis: B,
+        transfer: T,
+        method: Method,
+    ) {
         self.check::<1, N, B, T>(basis, transfer, method, [150], false);
         self.check::<2, N, B, T>(basis, transfer, method, [41, 37], false);
         self.check::<2, N, B, T>(basis, transfer, method, [41, 37], true);
@@ -300,42 +369,94 @@ impl EveryPass {
         axisymmetric: bool,
     ) {
         let wide = self.wide;
-        let name = format!("{} {} {D}D wide {wide}", std::any::type_name::<B>(), std::any::type_name::<T>());
+        let name = format!(
+            "{} {} {D}D wide {wide}",
+            std::any::type_name::<B>(),
+            std::any::type_name::<T>()
+        );
         // small cells and places that are no round numbers; the axis of an axisymmetric grid is at zero
-        let min = Vector::from_fn(|a, _| if axisymmetric { 0.0 } else { [0.0, -0.3, 0.7][a] });
+        let min = Vector::from_fn(|a, _| {
+            if axisymmetric {
+                0.0
+            } else {
+                [0.0, -0.3, 0.7][a]
+            }
+        });
         let geometry = Geometry::new(min, 0.0625, cells, &basis);
         let axes: [B; D] = std::array::from_fn(|a| basis.for_spacing([0.5, 0.31, 1.0][a]));
-        let kernels = Stencils::<D, N, B, T> { nodes: basis, basis: vec![axes], transfer };
+        let kernels = Stencils::<D, N, B, T> {
+            nodes: basis,
+            basis: vec![axes],
+            transfer,
+        };
         let mut random = Random(0x9E37_79B9_7F4A_7C15 + D as u64);
         let (mut fast, blocks) = points(&geometry, &kernels, T::AFFINE, axisymmetric, &mut random);
         let edge = block_edge(D, N);
-        let context = Context { geometry: &geometry, body: 0, edge, dt: DT, wide: wide && wide_instructions() };
+        let context = Context {
+            geometry: &geometry,
+            body: 0,
+            edge,
+            dt: DT,
+            wide: wide && wide_instructions(),
+        };
 
         for (momentum, force) in [(true, true), (true, false), (false, true)] {
             let what = Scattered { momentum, force };
-            let mut arrays = [vec![Node::default(); blocks.stored], vec![Node::default(); blocks.stored]];
+            let mut arrays = [
+                vec![Node::default(); blocks.stored],
+                vec![Node::default(); blocks.stored],
+            ];
             let count = fast.len();
             let columns = Columns::new(&mut fast, count, T::AFFINE);
             let [main, change] = &mut arrays;
             for block in &blocks.bodies[0].blocks {
                 // SAFETY: one thread; the points were sorted, and moved within reach
-                unsafe { kernels.scatter(&context, &columns, block, what, [main.as_mut_ptr(), change.as_mut_ptr()]) };
+                unsafe {
+                    kernels.scatter(
+                        &context,
+                        &columns,
+                        block,
+                        what,
+                        [main.as_mut_ptr(), change.as_mut_ptr()],
+                    )
+                };
             }
             let mut plain = [Dense::new(geometry.counts), Dense::new(geometry.counts)];
             let [plain_main, plain_change] = &mut plain;
-            plain_scatter(&geometry, &axes, method, &fast, what, plain_main, plain_change);
+            plain_scatter(
+                &geometry,
+                &axes,
+                method,
+                &fast,
+                what,
+                plain_main,
+                plain_change,
+            );
             for (nodes, plain) in arrays.iter().zip(&plain) {
                 let nodes = dense(&geometry, &blocks, nodes);
-                agree(&format!("{name} {what:?}"), nodes.nodes.as_flattened(), plain.nodes.as_flattened());
+                agree(
+                    &format!("{name} {what:?}"),
+                    nodes.nodes.as_flattened(),
+                    plain.nodes.as_flattened(),
+                );
             }
         }
 
         let arrays = [0; 3].map(|_| -> Vec<Node> {
-            (0..blocks.stored).map(|_| Node(std::array::from_fn(|a| if a < D { random.next() } else { 0.0 }))).collect()
+            (0..blocks.stored)
+                .map(|_| {
+                    Node(std::array::from_fn(
+                        |a| if a < D { random.next() } else { 0.0 },
+                    ))
+                })
+                .collect()
         });
         let grid = [0, 1, 2].map(|k| dense(&geometry, &blocks, &arrays[k]));
-        let sources =
-            Sources { main: arrays[0].as_ptr(), change: arrays[1].as_ptr(), second: arrays[2].as_ptr() };
+        let sources = Sources {
+            main: arrays[0].as_ptr(),
+            change: arrays[1].as_ptr(),
+            second: arrays[2].as_ptr(),
+        };
         for [velocity, position, rate, same] in [
             [true, true, true, true],
             [true, true, false, false],
@@ -343,7 +464,12 @@ impl EveryPass {
             [false, false, true, false],
             [false, true, true, false],
         ] {
-            let what = Wanted { velocity, position, rate, same };
+            let what = Wanted {
+                velocity,
+                position,
+                rate,
+                same,
+            };
             let name = format!("{name} {what:?}");
             let (mut fast, mut plain) = (fast.clone(), fast.clone());
             let plain_rates = plain_gather(&geometry, &axes, method, &mut plain, what, &grid);
@@ -358,20 +484,40 @@ impl EveryPass {
                     let mut rates = Rates::zeros();
                     let rows_here = rows.len();
                     // SAFETY: one thread; the points were sorted, and moved within reach
-                    unsafe { kernels.gather(&context, &columns, &tile, &reach, rows, what, &sources, &mut rates) };
+                    unsafe {
+                        kernels.gather(
+                            &context, &columns, &tile, &reach, rows, what, &sources, &mut rates,
+                        )
+                    };
                     gradients.extend(rates.gradient[..rows_here].iter().copied());
                     hoops.extend(&rates.hoop[..rows_here]);
                 }
             }
             if rate {
-                agree(&name, gradients.iter().flatten(), plain_rates.iter().flat_map(|(gradient, _)| gradient));
+                agree(
+                    &name,
+                    gradients.iter().flatten(),
+                    plain_rates.iter().flat_map(|(gradient, _)| gradient),
+                );
                 if axisymmetric {
                     agree(&name, &hoops, plain_rates.iter().map(|(_, hoop)| hoop));
                 }
             }
-            agree(&name, fast.position.iter().flatten(), plain.position.iter().flatten());
-            agree(&name, fast.velocity.iter().flatten(), plain.velocity.iter().flatten());
-            agree(&name, fast.affine.iter().flatten(), plain.affine.iter().flatten());
+            agree(
+                &name,
+                fast.position.iter().flatten(),
+                plain.position.iter().flatten(),
+            );
+            agree(
+                &name,
+                fast.velocity.iter().flatten(),
+                plain.velocity.iter().flatten(),
+            );
+            agree(
+                &name,
+                fast.affine.iter().flatten(),
+                plain.affine.iter().flatten(),
+            );
             agree(&name, &fast.hoop_stretch, &plain.hoop_stretch);
         }
     }
@@ -379,10 +525,14 @@ impl EveryPass {
 
 #[test]
 fn the_wide_kernels_do_what_the_textbook_says() {
-    BasisChoice::all().iter().for_each(|basis| basis.visit(EveryPass { wide: true }));
+    BasisChoice::all()
+        .iter()
+        .for_each(|basis| basis.visit(EveryPass { wide: true }));
 }
 
 #[test]
 fn the_portable_kernels_do_what_the_textbook_says() {
-    BasisChoice::all().iter().for_each(|basis| basis.visit(EveryPass { wide: false }));
+    BasisChoice::all()
+        .iter()
+        .for_each(|basis| basis.visit(EveryPass { wide: false }));
 }

@@ -16,7 +16,11 @@ pub struct Variant {
 
 impl Variant {
     pub fn table(&self) -> String {
-        let Self { basis, transfer, update } = self;
+        let Self {
+            basis,
+            transfer,
+            update,
+        } = self;
         format!("[method]\nbasis = \"{basis}\"\ntransfer = {transfer}\nupdate = \"{update}\"\n")
     }
 
@@ -27,13 +31,21 @@ impl Variant {
 
 /// Every combination of methods, and FLIP with a share of PIC.
 pub fn variants() -> Vec<Variant> {
-    let transfers = TransferChoice::NAMES.iter().map(|name| format!("\"{name}\""));
-    let transfers: Vec<_> = transfers.chain(["{ flip = { ratio = 0.9 } }".to_string()]).collect();
+    let transfers = TransferChoice::NAMES
+        .iter()
+        .map(|name| format!("\"{name}\""));
+    let transfers: Vec<_> = transfers
+        .chain(["{ flip = { ratio = 0.9 } }".to_string()])
+        .collect();
     let mut variants = Vec::new();
     for basis in BasisChoice::NAMES {
         for transfer in &transfers {
             for update in ["usf", "usl", "musl"] {
-                variants.push(Variant { basis, transfer: transfer.clone(), update });
+                variants.push(Variant {
+                    basis,
+                    transfer: transfer.clone(),
+                    update,
+                });
             }
         }
     }
@@ -42,7 +54,10 @@ pub fn variants() -> Vec<Variant> {
 
 /// `[a, b, c]` with as many numbers as there are axes.
 pub fn list<T: std::fmt::Display>(dimension: usize, numbers: [T; 3]) -> String {
-    let numbers: Vec<_> = numbers[..dimension].iter().map(ToString::to_string).collect();
+    let numbers: Vec<_> = numbers[..dimension]
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     format!("[{}]", numbers.join(", "))
 }
 
@@ -69,7 +84,16 @@ pub struct Scene {
 
 impl Scene {
     pub fn text(&self, variant: &Variant) -> String {
-        let Self { dimension, cells, cell_size, step, steps, law, head, rest } = self;
+        let Self {
+            dimension,
+            cells,
+            cell_size,
+            step,
+            steps,
+            law,
+            head,
+            rest,
+        } = self;
         let min = list(*dimension, [0.0; 3]);
         let max = list(*dimension, cells.map(|n| f64::from(n) * cell_size));
         let end = step * f64::from(*steps);
@@ -83,7 +107,9 @@ impl Scene {
 
     pub fn scenario(&self, variant: &Variant) -> Scenario {
         let text = self.text(variant);
-        parse("scene", &text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}")).scenario
+        parse("scene", &text, &[])
+            .unwrap_or_else(|error| panic!("{error}\n{text}"))
+            .scenario
     }
 }
 
