@@ -49,6 +49,9 @@ fn count<const D: usize>(scene: &Scene, variant: &Variant, parallel: bool) -> (u
     solver
         .start(state)
         .unwrap_or_else(|fault| panic!("{fault}"));
+    // as a rigid body, so that every way is like the one before
+    let velocity = state.bodies[0].particles.velocity[0];
+    state.bodies[0].particles.velocity.fill(velocity);
     let mut counted = (0, 0);
     for _ in 0..3 {
         counted = (0, 0);
@@ -93,7 +96,7 @@ fn a_warm_step_allocates_nothing() {
             scene.law = "neo_hookean = { youngs_modulus = 1, poissons_ratio = 0.3 }".into();
             scene.rest += "[[boundary]]\nname = \"wall\"\non.side = \"x_max\"\ncondition = \"fixed\"\n\
                            [[boundary]]\nname = \"other\"\non.side = \"x_min\"\ncondition = \"wall\"\n\
-                           [[load]]\nbody = \"box\"\non.side = \"x_max\"\npressure = 1e-3\nfactor = \"1 + 1 * t\"\n";
+                           [[load]]\nbody = \"box\"\non.side = \"x_max\"\npressure = 1e-12\nfactor = \"1 + 1 * t\"\n";
             let run = |parallel| match dimension {
                 1 => count::<1>(&scene, &variant, parallel),
                 2 => count::<2>(&scene, &variant, parallel),

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{NEO_HOOKEAN, Scene, Variant, flying_box, list, texts, variants};
+use common::{Scene, Variant, flying_box, list, texts, variants};
 use mpm::study::validate::{Recorded, simulate};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -105,7 +105,7 @@ fn corner_box(dimension: usize, velocity: [&str; 3], head: &str, rest: &str) -> 
         cell_size: 0.5,
         step: 0.01,
         steps: 50,
-        law: NEO_HOOKEAN.into(),
+        law: "neo_hookean = { youngs_modulus = 100, poissons_ratio = 0.3 }".into(),
         head: head.into(),
         rest: body + rest,
     }

@@ -16,7 +16,8 @@ fn run(scene: &Scene, variant: &Variant) -> Recorded {
 fn bar(dimension: usize, axis: usize, law: &str) -> Scene {
     let along = |one: f64, other: f64| [0, 1, 2].map(|a| if a == axis { one } else { other });
     let name = ["x", "y", "z"][axis];
-    let velocity = format!("2 * sin(pi * {name} / 20)");
+    // compressed first: what stretches into empty cells is too light there for update stress last
+    let velocity = format!("-2 * sin(pi * {name} / 20)");
     let velocity = [0, 1, 2].map(|a| if a == axis { velocity.as_str() } else { "0" });
     let per_cell = along(2.0, 1.0).map(|n| n as u32);
     let rest = format!(
@@ -33,7 +34,7 @@ fn bar(dimension: usize, axis: usize, law: &str) -> Scene {
         cells: along(14.0, 1.0).map(|n| n as u32),
         cell_size: 1.0,
         step: 0.4,
-        steps: 8,
+        steps: 4,
         law: format!("{law} = {{ youngs_modulus = 100, poissons_ratio = 0 }}"),
         head: String::new(),
         rest,
@@ -46,10 +47,11 @@ fn a_bar_moves_the_same_along_every_axis_of_every_space() {
         for variant in variants() {
             let history = |dimension, axis: usize| {
                 let scene = bar(dimension, axis, law);
-                // recorded a few times, with steps found by the solver
+                // steps found by the solver differ: in a compressed bar a direction that 1D does not have is the stiffest
+                let step = "step = 0.02";
                 let text = scene
                     .text(&variant)
-                    .replace(&format!("step = {:e}", scene.step), "courant = 0.3");
+                    .replace(&format!("step = {:e}", scene.step), step);
                 let run = simulate(&text, &[], false)
                     .unwrap_or_else(|error| panic!("{variant:?}: {error}"));
                 let name = ["x", "y", "z"][axis];
@@ -63,7 +65,7 @@ fn a_bar_moves_the_same_along_every_axis_of_every_space() {
                 (run.summary.steps, numbers)
             };
             let (steps, line) = history(1, 0);
-            assert!(steps > 50);
+            assert!(steps > 40);
             for (dimension, axis) in [(2, 0), (2, 1), (3, 0), (3, 1), (3, 2)] {
                 let (others, other) = history(dimension, axis);
                 let name = format!("{law} {variant:?} in {dimension}D along axis {axis}");
@@ -145,12 +147,12 @@ fn turned_box(dimension: usize, from: [usize; 3], signs: [f64; 3], size: f64) ->
     };
     let [u, v, w] = [old(0), old(1), old(2)];
     let mut velocity = [
-        format!("9 + 2 * {u} - 4 * {v}"),
-        format!("-6 + 5 * {u} + {v}"),
-        format!("4 - {w}"),
+        format!("15 + 1 * {u} - 3 * {v}"),
+        format!("-9 + 3 * {u} + {v}"),
+        format!("7 - {w}"),
     ];
     if dimension == 1 {
-        velocity = [format!("9 + 2 * {u}"), String::new(), String::new()];
+        velocity = [format!("15 + 1 * {u}"), String::new(), String::new()];
     }
     let velocity = [0, 1, 2].map(|a| format!("{} * ({})", signs[a], velocity[from[a]]));
     let gravity = [3.0, -5.0, 7.0];
@@ -167,8 +169,8 @@ fn turned_box(dimension: usize, from: [usize; 3], signs: [f64; 3], size: f64) ->
             list(dimension, [0, 1, 2].map(|a| place(a) + half[from[a]])),
             texts(dimension, [0, 1, 2].map(|a| velocity[a].as_str())),
         ),
-        step: 0.005,
-        steps: 50,
+        step: 0.004,
+        steps: 40,
         ..flying_box(dimension)
     }
 }

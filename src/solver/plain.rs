@@ -7,7 +7,7 @@ use crate::basis::{Basis, BasisChoice, BasisVisitor};
 use crate::grid::{Blocks, Geometry, Node, block_edge};
 use crate::math::{Matrix, Vector, packed_len, unpack};
 use crate::state::Particles;
-use crate::transfer::{Apic, Flip, Pic, Transfer};
+use crate::transfer::{Apic, Flip, Pic, Transfer, TransferChoice};
 
 /// Δt of all passes, s.
 const DT: f64 = 0.013;
@@ -340,6 +340,11 @@ impl BasisVisitor for EveryPass {
     type Output = ();
 
     fn visit<const N: usize, B: Basis<N>>(self, basis: B) {
+        assert_eq!(
+            TransferChoice::NAMES,
+            ["pic", "flip", "apic"],
+            "a new transfer needs its plain form here"
+        );
         self.dimensions(basis, Pic, Method::Pic);
         self.dimensions(basis, Flip { ratio: 1.0 }, Method::Flip(1.0));
         self.dimensions(basis, Flip { ratio: 0.9 }, Method::Flip(0.9));
