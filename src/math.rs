@@ -142,24 +142,49 @@ pub fn from_eigen<const D: usize>(values: &[f64; D], vectors: &Matrix<D>) -> Mat
     })
 }
 
-/// An upper bound on the largest eigenvalue of a symmetric matrix, exact in 1D and 2D and in 3D where the two smaller ones
-/// are equal: the mean eigenvalue plus √((D − 1)/D) times the norm of the deviator.
-#[inline(always)]
-pub fn largest_eigenvalue_bound<const D: usize>(m: &Matrix<D>) -> f64 {
-    m.trace() / D as f64 + ((D as f64 - 1.0) / D as f64).sqrt() * deviator_norm(m)
+/// The largest eigenvalue of a symmetric matrix, to round-off.
+#[inline]
+pub fn largest_eigenvalue<const D: usize>(m: &Matrix<D>) -> f64 {
+    extreme_eigenvalues(m).1
 }
 
-/// An upper bound on the largest difference between two eigenvalues of a symmetric matrix, exact in 1D and 2D: √2 times
-/// the norm of the deviator.
-#[inline(always)]
-pub fn eigenvalue_spread_bound<const D: usize>(m: &Matrix<D>) -> f64 {
-    std::f64::consts::SQRT_2 * deviator_norm(m)
+/// The largest difference between two eigenvalues of a symmetric matrix, to round-off.
+#[inline]
+pub fn eigenvalue_spread<const D: usize>(m: &Matrix<D>) -> f64 {
+    let (smallest, largest) = extreme_eigenvalues(m);
+    largest - smallest
 }
 
-/// The Frobenius norm of m − (tr m / D) I.
-#[inline(always)]
-fn deviator_norm<const D: usize>(m: &Matrix<D>) -> f64 {
-    (m - Matrix::<D>::identity() * (m.trace() / D as f64)).norm()
+/// The smallest and the largest eigenvalue of a symmetric matrix: roots of the quadratic in 2D, the trigonometric roots of the
+/// cubic in 3D.
+///
+/// With q = tr m / 3, s = m − q I and p² = tr s² / 6, the eigenvalues of s are 2p cos(φ + 2πk/3) where cos 3φ = det s / (2p³):
+/// x = 2p cos φ in x³ − 3p² x − det s = 0 gives 2p³ cos 3φ = det s.
+#[inline]
+pub fn extreme_eigenvalues<const D: usize>(m: &Matrix<D>) -> (f64, f64) {
+    let mean = m.trace() / D as f64;
+    let deviator = m - Matrix::<D>::identity() * mean;
+    let squares = deviator.norm_squared();
+    match D {
+        1 => (mean, mean),
+        2 => {
+            let radius = (0.5 * squares).sqrt();
+            (mean - radius, mean + radius)
+        }
+        _ => {
+            let p = (squares / 6.0).sqrt();
+            if p <= f64::MIN_POSITIVE {
+                return (mean - p, mean + p);
+            }
+            let cosine = determinant(&(deviator / p)) * 0.5;
+            let phi = cosine.clamp(-1.0, 1.0).acos() / 3.0;
+            let third = 2.0 * std::f64::consts::FRAC_PI_3;
+            (
+                mean + 2.0 * p * (phi + third).cos(),
+                mean + 2.0 * p * phi.cos(),
+            )
+        }
+    }
 }
 
 /// How many numbers a packed symmetric matrix has: 1, 3 or 6.

@@ -8,7 +8,7 @@ use crate::basis::Basis;
 use crate::math::Vector;
 
 /// Four numbers of one grid node that are loaded and stored together: a vector (momentum, velocity or force, components
-/// `0 .. D`) and, in the first array of the grid, the mass (component `D`).
+/// `0 .. D`) and, with momenta, the mass, with velocities 1 if there was any (component `D`).
 #[repr(C, align(32))]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Node(pub [f64; 4]);

@@ -6,9 +6,7 @@
 use super::points::Points;
 use super::{Isotropic, Kinematics, Law, Material, MaterialPoints, Plane, Stress};
 use crate::input::{Parameters, Reader};
-use crate::math::{
-    Matrix, determinant_less_one, eigenvalue_spread_bound, inverse, largest_eigenvalue_bound,
-};
+use crate::math::{Matrix, determinant_less_one, eigenvalue_spread, inverse, largest_eigenvalue};
 
 /// Which stress the rate is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,7 +172,7 @@ impl<const D: usize> Material<D> for Hypoelastic {
     /// - for the Kirchhoff rate −τ Lᵀ n = −τ n (m·n) remains: at most p + ¼ s;
     /// - for the Cauchy rate τ̇ = J σ̇ + τ tr L cancels that but for the share κ per free transverse direction.
     ///
-    /// In 1D these are exact: J M − 2κ τ and M − τ.
+    /// In 1D the spread is that to the transverse stress, so that a bar gets the same step in every dimension.
     #[inline]
     fn stiffness(&self, memory: &f64, stress: &Stress<D>, _: f64) -> f64 {
         let modulus = self.plane_lambda + 2.0 * self.mu;
@@ -185,12 +183,12 @@ impl<const D: usize> Material<D> for Hypoelastic {
             ),
             Rate::Kirchhoff => (modulus, 1.0),
         };
-        if D == 1 {
-            return modulus - share * stress.plane[(0, 0)];
-        }
-        let spread = eigenvalue_spread_bound(&stress.plane);
+        let spread = match D {
+            1 => ((1.0 - self.held_share) * stress.plane[(0, 0)]).abs(),
+            _ => eigenvalue_spread(&stress.plane),
+        };
         let sign = 1.0_f64.copysign(share); // κ < 0 where ν < 0: then tension counts
-        let pressure = largest_eigenvalue_bound(&(stress.plane * -sign)).max(0.0);
+        let pressure = largest_eigenvalue(&(stress.plane * -sign)).max(0.0);
         modulus + 0.75 * spread + share.abs() * (pressure + 0.25 * spread)
     }
 

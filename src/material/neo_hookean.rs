@@ -2,7 +2,7 @@
 
 use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
 use crate::input::{Parameters, Reader};
-use crate::math::{Matrix, excess_over_logarithm, largest_eigenvalue_bound};
+use crate::math::{Matrix, excess_over_logarithm, largest_eigenvalue};
 
 /// W = μ/2 (tr b − 3) − μ ln J + λ/2 (ln J)² and so τ = μ (b − I) + λ ln J I.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,10 +57,14 @@ impl Hyperelastic for NeoHookean {
             let side = 2.0 * mu * (1.0 + deformation.transverse_finger_less_one());
             bulk *= side / (side + Deformation::<D>::TRANSVERSE * lambda);
         }
-        let largest = 1.0 + largest_eigenvalue_bound(&deformation.finger_less_one());
+        let mut largest = largest_eigenvalue(&deformation.finger_less_one());
+        if D < 3 {
+            // waves do not run that way, but 3D counts it too: the same scene gets the same step in every dimension
+            largest = largest.max(deformation.transverse_finger_less_one());
+        }
         let along = mu + bulk - lambda * deformation.volume_change().ln_1p();
-        // across n the second term is missing, and in 1D there is no across
-        mu * largest + if D == 1 { along } else { along.max(0.0) }
+        // across n the second term is missing
+        mu * (1.0 + largest) + along.max(0.0)
     }
 
     #[cfg(test)]

@@ -3,7 +3,7 @@
 
 use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
 use crate::input::{Parameters, Reader};
-use crate::math::{Matrix, largest_eigenvalue_bound};
+use crate::math::{Matrix, largest_eigenvalue};
 
 /// W = λ/2 (tr E)² + μ E : E, S = λ tr E I + 2μ E and τ = F S Fᵀ.
 ///
@@ -58,9 +58,9 @@ impl Hyperelastic for StVenantKirchhoff {
     fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, plane: Plane) -> f64 {
         let (_, mu) = self.elasticity.lame();
         let modulus = self.elasticity.plane_lambda::<D>(plane) + 2.0 * mu;
-        let largest = 1.0 + largest_eigenvalue_bound(&deformation.finger_less_one());
+        let largest = 1.0 + largest_eigenvalue(&deformation.finger_less_one());
         let stress = self.stress(deformation).plane;
-        largest_eigenvalue_bound(&stress) + modulus * largest * largest
+        largest_eigenvalue(&stress) + modulus * largest * largest
     }
 
     #[cfg(test)]

@@ -156,6 +156,13 @@ fn advance<const D: usize>(
         }
     }
     summary.momentum[1] = momentum(state);
+    let gained = -summary.energy.numerical / summary.energy.turned_over.max(f64::MIN_POSITIVE);
+    if gained > 0.05 {
+        summary.warning = Some(format!(
+            "the method added {:.0} % of the energy turned over: take a smaller time step, more cells or another method",
+            100.0 * gained
+        ));
+    }
     if let StepRule::Fixed(dt) = scenario.step
         && excess > 1.0
     {

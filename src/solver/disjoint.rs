@@ -39,9 +39,4 @@ impl<'a, T> Disjoint<'a, T> {
         // SAFETY: inside the borrowed slice, and nobody else has these elements
         unsafe { std::slice::from_raw_parts_mut(self.start.add(range.start), range.len()) }
     }
-
-    /// The address of the first element.
-    pub fn pointer(&self) -> *mut T {
-        self.start
-    }
 }

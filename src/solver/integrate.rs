@@ -68,6 +68,10 @@ pub fn for_each_row<const D: usize, R: Send>(
     }
 }
 
+/// What takes the place of the mass once a node has a velocity; a node without mass has none, and points must not take its
+/// zero for one.
+const PRESENT: f64 = 1.0;
+
 /// Below this mass a node's velocity cannot be computed; no point comes near it.
 const NO_MASS: f64 = 1e-290;
 
@@ -131,7 +135,9 @@ impl<const D: usize> GridStep<'_, D> {
             let nodes = unsafe { nodes.slice(row.start as usize..(row.start + row.len) as usize) };
             for node in nodes.iter_mut() {
                 let mass = node.0[D];
-                let inverse = if mass > NO_MASS { 1.0 / mass } else { 0.0 };
+                let there = mass > NO_MASS;
+                let inverse = if there { 1.0 / mass } else { 0.0 };
+                node.0[D] = if there { PRESENT } else { 0.0 };
                 for a in 0..D {
                     node.0[a] *= inverse;
                 }
@@ -204,6 +210,7 @@ impl<const D: usize> Shared<'_, D> {
                 &mut sums,
             );
             main[k].0[..D].copy_from_slice(velocity.as_slice());
+            main[k].0[D] = PRESENT;
             if let Some(change) = change.get_mut(k) {
                 change.0[..D].copy_from_slice(difference.as_slice());
             }

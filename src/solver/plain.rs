@@ -451,7 +451,7 @@ impl EveryPass {
             (0..blocks.stored)
                 .map(|_| {
                     Node(std::array::from_fn(
-                        |a| if a < D { random.next() } else { 0.0 },
+                        |a| if a < D { random.next() } else { 1.0 },
                     ))
                 })
                 .collect()

@@ -231,6 +231,7 @@ unsafe fn gather_value<L: Lane, const D: usize, const N: usize>(
     sum
 }
 
+/// For nodes that hold a velocity and, as number `D`, 1 (0 where no mass came):
 /// Σ_I N_I node_I, and for each set of functions `g[m]` and each axis a the same with `g[m]` in place of N along that axis: with
 /// the slopes Σ_I ∂_a N_I node_I. All sets together read the nodes once.
 #[inline(always)]
@@ -302,6 +303,14 @@ unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, const M: usize>
                     gradient[m][2] = wi.mul_add(dz[m], gradient[m][2]);
                 }
             }
+        }
+    }
+    // Nodes without mass have no velocity: what is missing in Σ ∂N_I over the others is made up with the point's own velocity.
+    // (A point of the linear basis that lies on a node has a slope, but no weight, at the node ahead.)
+    for m in 0..M {
+        for a in 0..D {
+            let present = gradient[m][a].array()[D];
+            gradient[m][a] = L::splat(-present).mul_add(sum, gradient[m][a]);
         }
     }
     (sum, gradient)
