@@ -1,6 +1,6 @@
 //! `mpm validate`.
 
-use super::{ThreadArguments, code, fail};
+use super::{ThreadArguments, code, fail, out};
 use crate::report::{Align, Cell, Size, Table, panels};
 use crate::study::validate::{CASES, Case, CaseError, Check, Report};
 use clap::Args;
@@ -8,6 +8,14 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  mpm validate                          every case
+  mpm validate --list                   what they claim, and where the answers come from
+  mpm validate bar1d --output compared  tables and pictures of computed against exact
+
+Exit code 0 only if every case passes, 1 if one fails.";
 
 /// Options of `mpm validate`.
 #[derive(Args)]
@@ -38,32 +46,37 @@ struct Outcome {
     checks: Vec<Check>,
 }
 
-/// Runs cases with known answers.
-pub fn validate(arguments: &ValidateArguments) -> ExitCode {
-    match try_validate(arguments) {
-        Ok(code) | Err(code) => code,
-    }
+#[derive(Serialize)]
+struct Results<'a> {
+    passed: bool,
+    cases: &'a [Outcome],
 }
 
-fn try_validate(arguments: &ValidateArguments) -> Result<ExitCode, ExitCode> {
+/// Runs cases with known answers.
+pub fn validate(arguments: &ValidateArguments) -> Result<ExitCode, ExitCode> {
     let cases = choose(&arguments.cases)?;
     if arguments.list {
         let mut table = Table::new(["case", "claim", "reference"]);
         for case in cases {
             table.push([case.name, case.claim, case.reference]);
         }
-        print!("{table}");
+        out::result(&table.to_string())?;
         return Ok(ExitCode::SUCCESS);
     }
     let mut outcomes = Vec::new();
     for case in cases {
         let started = Instant::now();
         let mut report = Report::default();
-        let result: Result<(), CaseError> = arguments.threads.install(|| (case.run)(&mut report))?;
+        let result: Result<(), CaseError> =
+            arguments.threads.install(|| (case.run)(&mut report))?;
         report.close_account();
         if let Some(folder) = &arguments.output {
-            write(folder, case.name, &report)
-                .map_err(|error| fail(code::SYSTEM, &format!("cannot write to {}: {error}", folder.display())))?;
+            write(folder, case.name, &report).map_err(|error| {
+                fail(
+                    code::SYSTEM,
+                    &format!("cannot write to {}: {error}", folder.display()),
+                )
+            })?;
         }
         let outcome = Outcome {
             case: case.name,
@@ -75,19 +88,26 @@ fn try_validate(arguments: &ValidateArguments) -> Result<ExitCode, ExitCode> {
             checks: report.checks,
         };
         if !arguments.json {
-            print_outcome(&outcome);
+            out::result(&describe(&outcome))?;
         }
         outcomes.push(outcome);
     }
     let failed = outcomes.iter().filter(|outcome| !outcome.passed).count();
     if arguments.json {
-        let json = serde_json::to_string_pretty(&outcomes)
-            .map_err(|error| fail(code::SYSTEM, &format!("cannot print the results: {error}")))?;
-        println!("{json}");
+        let passed = failed == 0;
+        out::json(&Results {
+            passed,
+            cases: &outcomes,
+        })?;
     } else {
-        println!("{} of {} cases passed", outcomes.len() - failed, outcomes.len());
+        let passed = outcomes.len() - failed;
+        out::result(&format!("{passed} of {} cases passed\n", outcomes.len()))?;
     }
-    Ok(ExitCode::from(if failed == 0 { code::DONE } else { code::VALIDATION_FAILED }))
+    Ok(ExitCode::from(if failed == 0 {
+        code::DONE
+    } else {
+        code::VALIDATION_FAILED
+    }))
 }
 
 fn choose(names: &[String]) -> Result<Vec<&'static Case>, ExitCode> {
@@ -97,18 +117,25 @@ fn choose(names: &[String]) -> Result<Vec<&'static Case>, ExitCode> {
     let mut chosen = Vec::new();
     for name in names {
         let Some(case) = CASES.iter().find(|case| case.name == name) else {
-            let hint = crate::input::nearest(name, CASES.iter().map(|case| case.name))
-                .map_or_else(|| "`mpm validate --list` names them all".into(), |near| format!("did you mean \"{near}\"?"));
-            return Err(fail(code::INPUT, &format!("there is no case \"{name}\"; {hint}")));
+            let hint = crate::input::nearest(name, CASES.iter().map(|case| case.name)).map_or_else(
+                || "`mpm validate --list` names them all".into(),
+                |near| format!("did you mean \"{near}\"?"),
+            );
+            return Err(fail(
+                code::INPUT,
+                &format!("there is no case \"{name}\"; {hint}"),
+            ));
         };
         chosen.push(case);
     }
     Ok(chosen)
 }
 
-fn print_outcome(outcome: &Outcome) {
-    println!("{}: {} ({:.1} s)", outcome.case, outcome.claim, outcome.seconds);
-    println!("  reference: {}", outcome.reference);
+fn describe(outcome: &Outcome) -> String {
+    let mut text = format!(
+        "{}: {} ({:.1} s)\n  reference: {}\n",
+        outcome.case, outcome.claim, outcome.seconds, outcome.reference
+    );
     let mut table = Table::new(["  ", "measured", "limit", ""])
         .align(1, Align::Right)
         .align(2, Align::Left)
@@ -121,11 +148,11 @@ fn print_outcome(outcome: &Outcome) {
             Cell::verdict(check.passed),
         ]);
     }
-    print!("{table}");
+    text += &table.to_string();
     if let Some(error) = &outcome.error {
-        println!("  FAIL: {error}");
+        text += &format!("  FAIL: {error}\n");
     }
-    println!();
+    text + "\n"
 }
 
 fn limit(check: &Check) -> String {
@@ -149,7 +176,11 @@ fn write(folder: &Path, case: &str, report: &Report) -> std::io::Result<()> {
         writer.flush()?;
     }
     for (name, charts) in &report.charts {
-        panels(charts, &folder.join(format!("{case}_{name}.png")), Size::default())?;
+        panels(
+            charts,
+            &folder.join(format!("{case}_{name}.png")),
+            Size::default(),
+        )?;
     }
     Ok(())
 }
