@@ -19,10 +19,10 @@ const NEGLIGIBLE: f64 = 1e-9;
 
 /// Draws what the tables in `folder` and the frames have to show.
 pub fn draw(folder: &Path, scenario: &Scenario, frames: &[observe::Frame]) -> io::Result<()> {
-    energy(folder, scenario)?;
+    let strained = energy(folder, scenario)?;
     motion(folder, scenario)?;
     if frames.iter().any(|frame| !frame.points.is_empty()) {
-        particles(folder, scenario, frames)?;
+        particles(folder, scenario, frames, strained)?;
     }
     Ok(())
 }
@@ -52,8 +52,8 @@ fn points(time: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
     time.iter().copied().zip(values.iter().copied()).collect()
 }
 
-/// Stored energies above, what brought and took them below.
-fn energy(folder: &Path, scenario: &Scenario) -> io::Result<()> {
+/// Stored energies above, what brought and took them below; tells whether there is more than round-off of elastic energy.
+fn energy(folder: &Path, scenario: &Scenario) -> io::Result<bool> {
     let table = table(folder, "energy")?;
     let time = table.column("time");
     let relative = |values: Vec<f64>| -> Vec<f64> {
@@ -67,10 +67,10 @@ fn energy(folder: &Path, scenario: &Scenario) -> io::Result<()> {
         .map(|i| kinetic[i] + elastic[i] + potential[i])
         .collect();
     let exchanged: Vec<(&str, Vec<f64>)> = [
-        ("work of loads", "external_work", 1.0),
-        ("work of boundaries", "boundary_work", 1.0),
-        ("taken by damping", "damping", -1.0),
-        ("lost by the method", "numerical", -1.0),
+        ("loads", "external_work", 1.0),
+        ("boundaries", "boundary_work", 1.0),
+        ("damping", "damping", -1.0),
+        ("the method itself", "numerical", -1.0),
     ]
     .map(|(name, column, sign)| {
         let values = table.column(column);
@@ -115,7 +115,7 @@ fn energy(folder: &Path, scenario: &Scenario) -> io::Result<()> {
         .collect();
     if !flows.is_empty() {
         charts.push(LineChart {
-            title: "Energy brought in since the start (negative: taken out)".into(),
+            title: "Energy brought in since the start by … (negative: taken out)".into(),
             x_label: "time (s)".into(),
             y_label: "energy (J)".into(),
             series: flows,
@@ -127,7 +127,8 @@ fn energy(folder: &Path, scenario: &Scenario) -> io::Result<()> {
         width: 1000,
         height,
     };
-    panels(&charts, &folder.join("energy.png"), size)
+    panels(&charts, &folder.join("energy.png"), size)?;
+    Ok(largest(&elastic) > 1e-20 * scale)
 }
 
 /// Displacement and velocity along each axis: centres of mass of bodies, and probes.
@@ -190,9 +191,8 @@ fn motion(folder: &Path, scenario: &Scenario) -> io::Result<()> {
     // an axis along which nothing moves says nothing
     let mut shown: Vec<LineChart> = charts
         .into_iter()
-        .enumerate()
-        .filter(|(index, (size, _))| *index < 2 || *size > 1e-6 * most)
-        .map(|(_, (_, chart))| chart)
+        .filter(|(size, _)| *size >= 1e-6 * most)
+        .map(|(_, chart)| chart)
         .collect();
     if let Some(first) = shown.first_mut() {
         let hidden = followed.len().saturating_sub(MOST_CURVES);
@@ -211,7 +211,12 @@ fn motion(folder: &Path, scenario: &Scenario) -> io::Result<()> {
 }
 
 /// The points in the x–y plane at a few times, by speed and by stress.
-fn particles(folder: &Path, scenario: &Scenario, frames: &[observe::Frame]) -> io::Result<()> {
+fn particles(
+    folder: &Path,
+    scenario: &Scenario,
+    frames: &[observe::Frame],
+    strained: bool,
+) -> io::Result<()> {
     let total: usize = scenario
         .bodies
         .iter()
@@ -244,8 +249,11 @@ fn particles(folder: &Path, scenario: &Scenario, frames: &[observe::Frame]) -> i
         ..ParticlePlot::default()
     };
     plot("speed (m/s)".into(), &speed).write(&folder.join("particles.png"))?;
-    let (label, measure) = stress_measure(scenario);
-    plot(label.into(), &measure).write(&folder.join("stress.png"))
+    if strained {
+        let (label, measure) = stress_measure(scenario);
+        plot(label.into(), &measure).write(&folder.join("stress.png"))?;
+    }
+    Ok(())
 }
 
 /// The frame as seen from high z.
