@@ -7,9 +7,13 @@ use crate::grid::Geometry;
 use crate::input::Variables;
 use crate::material::Plane;
 use crate::math::{Vector, packed_len};
-use crate::observe::{Frame, Point, BodyTable, EnergyTable, Observer, ProbeTable, ReactionTable, Sink, View};
-use crate::scenario::{PointSet, body_points, LoadKind, LoadSpec, ProbeTarget, Region, Scenario};
-use crate::solver::{Account, Fault, Kernels, Load, LoadForce, Mpm, Setup, Solver, Stencils, TimeStep};
+use crate::observe::{
+    BodyTable, EnergyTable, Frame, Observer, Point, ProbeTable, ReactionTable, Sink, View,
+};
+use crate::scenario::{LoadKind, LoadSpec, PointSet, ProbeTarget, Region, Scenario, body_points};
+use crate::solver::{
+    Account, Fault, Kernels, Load, LoadForce, Mpm, Setup, Solver, Stencils, TimeStep,
+};
 use crate::state::{Body, Particles, State};
 use crate::transfer::{Transfer, TransferVisitor};
 use serde::Serialize;
@@ -170,12 +174,24 @@ pub fn with_scene<V: SceneVisitor>(scenario: &Scenario, visitor: V) -> V::Output
 
 /// Builds the scene of a scenario whose dimension is known to be `D`.
 pub fn build<const D: usize>(scenario: &Scenario) -> Scene<D> {
-    let sets: Vec<PointSet> = (0..scenario.bodies.len()).map(|b| body_points(scenario, b)).collect();
-    let bodies = (0..scenario.bodies.len()).map(|b| build_body(scenario, b, &sets[b])).collect();
-    let state = State { time: 0.0, step: 0, bodies };
+    let sets: Vec<PointSet> = (0..scenario.bodies.len())
+        .map(|b| body_points(scenario, b))
+        .collect();
+    let bodies = (0..scenario.bodies.len())
+        .map(|b| build_body(scenario, b, &sets[b]))
+        .collect();
+    let state = State {
+        time: 0.0,
+        step: 0,
+        bodies,
+    };
     let observers = observers(scenario, &state, &sets);
     let solver = Box::new(build_solver(scenario, &state, &sets));
-    Scene { state, solver, observers }
+    Scene {
+        state,
+        solver,
+        observers,
+    }
 }
 
 fn build_body<const D: usize>(scenario: &Scenario, index: usize, set: &PointSet) -> Body<D> {
@@ -186,20 +202,42 @@ fn build_body<const D: usize>(scenario: &Scenario, index: usize, set: &PointSet)
     let axisymmetric = scenario.plane == Plane::Axisymmetric;
     let affine = scenario.method.transfer.is_affine();
     let velocity = set.positions.iter().map(|&position| {
-        let at = Variables { position, time: 0.0 };
+        let at = Variables {
+            position,
+            time: 0.0,
+        };
         Vector::from_fn(|a, _| spec.velocity[a].value(&at))
     });
     Body {
         name: spec.name.clone(),
         particles: Particles {
             velocity: velocity.collect(),
-            position: set.positions.iter().map(|x| Vector::from_fn(|a, _| x[a])).collect(),
-            mass: volume.iter().map(|volume| material.density * volume).collect(),
+            position: set
+                .positions
+                .iter()
+                .map(|x| Vector::from_fn(|a, _| x[a]))
+                .collect(),
+            mass: volume
+                .iter()
+                .map(|volume| material.density * volume)
+                .collect(),
             initial_volume: volume,
             stress: vec![0.0; count * packed_len(D)],
-            affine: if affine { vec![nalgebra::zero(); count] } else { Vec::new() },
-            hoop_stress: if axisymmetric { vec![0.0; count] } else { Vec::new() },
-            hoop_stretch: if axisymmetric { vec![1.0; count] } else { Vec::new() },
+            affine: if affine {
+                vec![nalgebra::zero(); count]
+            } else {
+                Vec::new()
+            },
+            hoop_stress: if axisymmetric {
+                vec![0.0; count]
+            } else {
+                Vec::new()
+            },
+            hoop_stretch: if axisymmetric {
+                vec![1.0; count]
+            } else {
+                Vec::new()
+            },
             id: (0..count as u32).collect(),
         },
         material: material.law.points(scenario.plane, count),
@@ -208,14 +246,21 @@ fn build_body<const D: usize>(scenario: &Scenario, index: usize, set: &PointSet)
     }
 }
 
-fn observers<const D: usize>(scenario: &Scenario, state: &State<D>, sets: &[PointSet]) -> Vec<Box<dyn Observer<D>>> {
+fn observers<const D: usize>(
+    scenario: &Scenario,
+    state: &State<D>,
+    sets: &[PointSet],
+) -> Vec<Box<dyn Observer<D>>> {
     let mut observers: Vec<Box<dyn Observer<D>>> = vec![Box::new(EnergyTable {
         loads: !scenario.loads.is_empty(),
         boundaries: !scenario.boundaries.is_empty(),
         damping: scenario.damping > 0.0,
     })];
     for (body, spec) in scenario.bodies.iter().enumerate() {
-        observers.push(Box::new(BodyTable { body, name: spec.name.clone() }));
+        observers.push(Box::new(BodyTable {
+            body,
+            name: spec.name.clone(),
+        }));
     }
     for probe in &scenario.probes {
         let particle = match &probe.target {
@@ -231,7 +276,10 @@ fn observers<const D: usize>(scenario: &Scenario, state: &State<D>, sets: &[Poin
         }));
     }
     for (boundary, spec) in scenario.boundaries.iter().enumerate() {
-        observers.push(Box::new(ReactionTable { boundary, name: spec.name.clone() }));
+        observers.push(Box::new(ReactionTable {
+            boundary,
+            name: spec.name.clone(),
+        }));
     }
     observers
 }
@@ -245,7 +293,10 @@ impl<const D: usize> BasisVisitor for WithBasis<'_, D> {
     type Output = Method<D>;
 
     fn visit<const N: usize, B: Basis<N>>(self, basis: B) -> Self::Output {
-        self.scenario.method.transfer.visit(WithTransfer::<D, N, B> { scene: self, basis })
+        self.scenario
+            .method
+            .transfer
+            .visit(WithTransfer::<D, N, B> { scene: self, basis })
     }
 }
 
@@ -282,7 +333,11 @@ struct Method<const D: usize> {
     kernels: Box<dyn Kernels<D>>,
 }
 
-fn build_solver<const D: usize>(scenario: &Scenario, state: &State<D>, sets: &[PointSet]) -> Mpm<D> {
+fn build_solver<const D: usize>(
+    scenario: &Scenario,
+    state: &State<D>,
+    sets: &[PointSet],
+) -> Mpm<D> {
     let method = scenario.method.basis.visit(WithBasis { scenario, state });
     Mpm::new(Setup {
         geometry: method.geometry,
@@ -290,9 +345,21 @@ fn build_solver<const D: usize>(scenario: &Scenario, state: &State<D>, sets: &[P
         scheme: scenario.method.update,
         gravity: Vector::from_fn(|a, _| scenario.gravity[a]),
         damping: scenario.damping,
-        boundaries: scenario.boundaries.iter().map(|spec| spec.condition.build()).collect(),
-        boundary_boxes: scenario.boundaries.iter().map(|spec| region(&spec.on, &scenario.grid)).collect(),
-        loads: scenario.loads.iter().map(|spec| load(spec, state, sets)).collect(),
+        boundaries: scenario
+            .boundaries
+            .iter()
+            .map(|spec| spec.condition.build())
+            .collect(),
+        boundary_boxes: scenario
+            .boundaries
+            .iter()
+            .map(|spec| region(&spec.on, &scenario.grid))
+            .collect(),
+        loads: scenario
+            .loads
+            .iter()
+            .map(|spec| load(spec, state, sets))
+            .collect(),
         parallel: state.point_count() >= PARALLEL_FROM && rayon::current_num_threads() > 1,
     })
 }
@@ -300,7 +367,10 @@ fn build_solver<const D: usize>(scenario: &Scenario, state: &State<D>, sets: &[P
 /// The box of positions of a region of nodes.
 fn region<const D: usize>(on: &Region, grid: &crate::scenario::GridSpec) -> (Vector<D>, Vector<D>) {
     match on {
-        Region::Box { min, max } => (Vector::from_fn(|a, _| min[a]), Vector::from_fn(|a, _| max[a])),
+        Region::Box { min, max } => (
+            Vector::from_fn(|a, _| min[a]),
+            Vector::from_fn(|a, _| max[a]),
+        ),
         Region::Side(side) => {
             // ghost nodes outside the side belong to it
             let mut min = Vector::repeat(f64::NEG_INFINITY);
@@ -321,7 +391,10 @@ fn load<const D: usize>(spec: &LoadSpec, state: &State<D>, sets: &[PointSet]) ->
     let particles = &state.bodies[spec.body].particles;
     let factor = spec.factor.clone();
     let factor = Box::new(move |time| match &factor {
-        Some(factor) => factor.value(&Variables { position: [0.0; 3], time }),
+        Some(factor) => factor.value(&Variables {
+            position: [0.0; 3],
+            time,
+        }),
         None => 1.0,
     });
     let forces = |force: &dyn Fn(usize) -> Vector<D>| chosen.iter().map(|&p| force(p)).collect();
@@ -330,13 +403,20 @@ fn load<const D: usize>(spec: &LoadSpec, state: &State<D>, sets: &[PointSet]) ->
         LoadKind::Acceleration(field) => {
             let field = field.clone();
             let field = move |position: &Vector<D>, time: f64| {
-                let mut at = Variables { position: [0.0; 3], time };
+                let mut at = Variables {
+                    position: [0.0; 3],
+                    time,
+                };
                 at.position[..D].copy_from_slice(position.as_slice());
                 Vector::from_fn(|a, _| field[a].value(&at)) * factor(time)
             };
             let origins = chosen.iter().map(|&p| particles.position[p]).collect();
             let force = LoadForce::Acceleration(origins, Box::new(field));
-            return Load { body: spec.body, points, force };
+            return Load {
+                body: spec.body,
+                points,
+                force,
+            };
         }
         LoadKind::Force(total) => {
             let mass: f64 = chosen.iter().map(|&p| particles.mass[p]).sum();
@@ -406,7 +486,11 @@ fn advance<const D: usize>(
     monitor: &mut dyn FnMut(&Progress) -> bool,
     summary: &mut Summary,
 ) -> Result<(), RunError> {
-    let Scene { state, solver, observers } = scene;
+    let Scene {
+        state,
+        solver,
+        observers,
+    } = scene;
     for observer in observers.iter() {
         sink.open(&observer.name(), &observer.header())?;
     }
@@ -422,7 +506,12 @@ fn advance<const D: usize>(
         let (dt, after) = time_step.next(state.time, planned, &limit);
         // also true if dt is not a number
         if !(dt > 1e-15 * scenario.end) {
-            return Err(Fault::Collapsed { time: state.time, step: state.step, dt }.into());
+            return Err(Fault::Collapsed {
+                time: state.time,
+                step: state.step,
+                dt,
+            }
+            .into());
         }
         excess = excess.max(dt / limit.crossing_time());
         solver.step(state, dt)?;
@@ -432,14 +521,21 @@ fn advance<const D: usize>(
         }
         if time_step.reached(state.time, dt, planned) {
             records += 1;
-            while self::planned(scenario, records + 1) <= state.time && self::planned(scenario, records + 1) < scenario.end {
+            while self::planned(scenario, records + 1) <= state.time
+                && self::planned(scenario, records + 1) < scenario.end
+            {
                 records += 1;
             }
             record(state, solver.as_ref(), observers, sink, summary)?;
         }
         if monitoring.due(state.step) {
-            let progress =
-                Progress { time: state.time, end: scenario.end, steps: state.step, dt, points: summary.particles };
+            let progress = Progress {
+                time: state.time,
+                end: scenario.end,
+                steps: state.step,
+                dt,
+                points: summary.particles,
+            };
             sink.flush()?;
             if !monitor(&progress) {
                 return Err(RunError::Interrupted);
@@ -460,7 +556,11 @@ fn advance<const D: usize>(
 /// The time of record number `index`, s.
 fn planned(scenario: &Scenario, index: u64) -> f64 {
     let time = index as f64 * scenario.output.every;
-    if time >= scenario.end * (1.0 - 1e-9) { scenario.end } else { time }
+    if time >= scenario.end * (1.0 - 1e-9) {
+        scenario.end
+    } else {
+        time
+    }
 }
 
 /// All points, in the order in which their bodies were filled.
@@ -493,7 +593,10 @@ fn frame<const D: usize>(state: &State<D>) -> Frame {
         }
         points[first..].sort_by_key(|point| point.id);
     }
-    Frame { time: state.time, points }
+    Frame {
+        time: state.time,
+        points,
+    }
 }
 
 fn momentum<const D: usize>(state: &State<D>) -> Vec<f64> {
@@ -509,8 +612,15 @@ fn record<const D: usize>(
     summary: &mut Summary,
 ) -> Result<(), RunError> {
     let account = solver.ledger().account(solver.stored(state));
-    let spin: Vec<Vec<f64>> = (0..state.bodies.len()).map(|body| solver.angular_momentum(state, body)).collect();
-    let view = View { state, account, ledger: solver.ledger(), spin: &spin };
+    let spin: Vec<Vec<f64>> = (0..state.bodies.len())
+        .map(|body| solver.angular_momentum(state, body))
+        .collect();
+    let view = View {
+        state,
+        account,
+        ledger: solver.ledger(),
+        spin: &spin,
+    };
     for observer in observers {
         sink.row(&observer.name(), &observer.row(&view))?;
     }
@@ -533,7 +643,11 @@ struct Pace {
 
 impl Pace {
     fn new() -> Self {
-        Self { last: Instant::now(), interval: 1, next: 1 }
+        Self {
+            last: Instant::now(),
+            interval: 1,
+            next: 1,
+        }
     }
 
     fn due(&mut self, step: u64) -> bool {
@@ -559,6 +673,12 @@ impl Pace {
 pub fn peak_memory() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    let kibibytes = line.and_then(|line| line.trim().trim_end_matches("kB").trim().parse::<u64>().ok());
+    let kibibytes = line.and_then(|line| {
+        line.trim()
+            .trim_end_matches("kB")
+            .trim()
+            .parse::<u64>()
+            .ok()
+    });
     kibibytes.unwrap_or(0) * 1024
 }

@@ -86,8 +86,11 @@ impl<const D: usize> Particles<D> {
                 scope.spawn(|_| reorder::permute_in_place(&mut self.affine, 1, order, leaders));
             }
             if !self.hoop_stress.is_empty() {
-                scope.spawn(|_| reorder::permute_in_place(&mut self.hoop_stress, 1, order, leaders));
-                scope.spawn(|_| reorder::permute_in_place(&mut self.hoop_stretch, 1, order, leaders));
+                scope
+                    .spawn(|_| reorder::permute_in_place(&mut self.hoop_stress, 1, order, leaders));
+                scope.spawn(|_| {
+                    reorder::permute_in_place(&mut self.hoop_stretch, 1, order, leaders)
+                });
             }
         });
     }
@@ -146,14 +149,18 @@ impl<const D: usize> Body<D> {
             position: Vector::from_fn(|a, _| moment[a].value() / mass),
             momentum: Vector::from_fn(|a, _| momentum[a].value()),
             kinetic: kinetic.value(),
-            elastic: self.material.energy(0..p.len(), &p.present(), &p.initial_volume),
+            elastic: self
+                .material
+                .energy(0..p.len(), &p.present(), &p.initial_volume),
         }
     }
 
     /// The Cauchy stress of point `p`, Pa, in the modelled directions.
     pub fn cauchy_stress(&self, p: usize) -> Matrix<D> {
         let width = packed_len(D);
-        let j = self.material.volume_ratio(p, self.particles.hoop_stretch(p));
+        let j = self
+            .material
+            .volume_ratio(p, self.particles.hoop_stretch(p));
         crate::math::unpack(&self.particles.stress[p * width..(p + 1) * width]) / j
     }
 }

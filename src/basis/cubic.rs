@@ -40,6 +40,7 @@ impl Basis<4> for CubicBSpline {
                 r * (2.0 - 1.5 * r),
                 0.5 * s2,
             ],
+            arm: [-1.0 - s, -s, r, 1.0 + r],
         }
     }
 

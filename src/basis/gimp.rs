@@ -55,6 +55,7 @@ impl Basis<3> for Gimp {
                 weight_last,
             ],
             slope: [slope_last - 1.0, 1.0 - 2.0 * slope_last, slope_last],
+            arm: [left - l - 1.0, left - l, left - l + 1.0],
         }
     }
 

@@ -20,7 +20,7 @@ impl Basis<2> for Linear {
     fn axis(&self, x: f64, cells: i32) -> Axis<2> {
         let first = (x as i32).min(cells - 1);
         let s = x - f64::from(first);
-        Axis { first, weight: [1.0 - s, s], slope: [-1.0, 1.0] }
+        Axis { first, weight: [1.0 - s, s], slope: [-1.0, 1.0], arm: [-s, 1.0 - s] }
     }
 
     fn count(&self, cells: i32) -> i32 {

@@ -14,6 +14,8 @@ pub struct Axis<const N: usize> {
     pub weight: [f64; N],
     /// Slopes dN_i/dx per cell; they sum to zero.
     pub slope: [f64; N],
+    /// Arms x_i − x in cells, where x_i is the position of function i.
+    pub arm: [f64; N],
 }
 
 /// A family of shape functions over `cells` cells of unit length, complete to first order on `0 ≤ x ≤ cells`:

@@ -28,6 +28,7 @@ impl Basis<3> for QuadraticBSpline {
             first,
             weight: [0.5 * r * r, 0.5 + r * s, 0.5 * s * s],
             slope: [-r, r - s, s],
+            arm: [-0.5 - s, 0.5 - s, 1.5 - s],
         }
     }
 

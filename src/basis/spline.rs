@@ -40,10 +40,15 @@ pub(super) fn clamped<const N: usize>(x: f64, cell: i32, cells: i32) -> Axis<N> 
         weight[q] = carried;
         slope[q] = carried_slope;
     }
+    let mut arm = [0.0; N];
+    for k in 0..N {
+        arm[k] = greville(cell + k as i32, degree, cells) - x;
+    }
     Axis {
         first: cell,
         weight,
         slope,
+        arm,
     }
 }
 

@@ -68,6 +68,10 @@ impl Property for Complete {
                 let place = basis.position(axis.first + k as i32, cells);
                 one += axis.weight[k];
                 position += axis.weight[k] * place;
+                assert!(
+                    (axis.arm[k] - (place - x)).abs() < 1e-13,
+                    "{label}: arm {k} at {x}"
+                );
                 zero += axis.slope[k];
                 unit += axis.slope[k] * place;
                 assert!(axis.weight[k] >= 0.0, "{label}: negative weight at {x}");

@@ -193,7 +193,11 @@ mod tests {
         blocks.rebuild(16, &[20, 20], &[vec![([0, 0], (0, 5))]]);
         assert_eq!(blocks.stored, 9 * 256);
         assert_eq!(
-            blocks.rows.iter().map(|row| row.len as usize).sum::<usize>(),
+            blocks
+                .rows
+                .iter()
+                .map(|row| row.len as usize)
+                .sum::<usize>(),
             20 * 20
         );
         let anchors = blocks.bodies[0].blocks[0].anchors;

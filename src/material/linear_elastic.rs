@@ -88,16 +88,6 @@ struct Hypoelastic {
     held_share: f64,
 }
 
-/// The strain and spin of a step, at its middle: the symmetric and the skew part of G = Δt L (I + Δt L/2)⁻¹.
-///
-/// L refers to the start of the step, which maps dx to (I + Δt L) dx; at half time dx has become (I + Δt L/2) dx, so G is the
-/// velocity gradient there. A step that rotates without strain, I + Δt L = R, has G = 2 (R − I)(R + I)⁻¹, which is skew: no
-/// strain comes out, where the symmetric part of L gives the second-order cos θ − 1.
-#[inline(always)]
-fn midpoint<const D: usize>(l: &Matrix<D>) -> Matrix<D> {
-    l * inverse(&(Matrix::identity() + l * 0.5))
-}
-
 impl<const D: usize> Material<D> for Hypoelastic {
     type Memory = f64;
 
@@ -105,19 +95,17 @@ impl<const D: usize> Material<D> for Hypoelastic {
         0.0
     }
 
-    /// Half of the elastic increment, the rotation R = (I − W/2)⁻¹ (I + W/2), the other half: second order in Δt. R is
-    /// orthogonal, and the rotation of a rigid step exactly.
+    /// The increment of the classical algorithm, Δε = Δt sym(∇v): its work is what internal forces do on the grid. Half of the
+    /// elastic increment, the rotation R = (I − Δt W/2)⁻¹ (I + Δt W/2), the other half: second order in Δt for a steady ∇v, and
+    /// R is orthogonal, so that spin alone never changes the size of a stress.
     #[inline(always)]
     fn update_stress(&self, memory: &mut f64, stress: &mut Stress<D>, step: &Kinematics<D>) {
         let l = step.rate * step.dt;
-        let g = midpoint(&l);
-        let strain = (g + g.transpose()) * 0.5;
+        let strain = (l + l.transpose()) * 0.5;
         let hoop = step.hoop_rate * step.dt;
-        let hoop_strain = hoop / (1.0 + 0.5 * hoop);
 
         // a transverse strain of −κ tr D multiplies lengths by 1 + side
-        let side_strain = -self.transverse_ratio * strain.trace();
-        let side = side_strain / (1.0 - 0.5 * side_strain) + hoop;
+        let side = hoop - self.transverse_ratio * strain.trace();
         let sides = match D {
             1 => side * (2.0 + side),
             _ => side,
@@ -127,12 +115,12 @@ impl<const D: usize> Material<D> for Hypoelastic {
         let old_ratio = 1.0 + *memory;
         *memory += change * old_ratio;
         let ratio = 1.0 + *memory;
-        if ratio <= 0.0 || side <= -1.0 {
+        if ratio <= 0.0 || side <= -1.0 || plane <= -1.0 {
             *stress = Stress::undefined();
             return;
         }
 
-        let pressure = self.plane_lambda * (strain.trace() + hoop_strain);
+        let pressure = self.plane_lambda * (strain.trace() + hoop);
         let half = Matrix::identity() * (0.5 * pressure) + strain * self.mu;
         let (before, after) = match self.rate {
             Rate::Cauchy => (1.0 / old_ratio, ratio),
@@ -140,7 +128,7 @@ impl<const D: usize> Material<D> for Hypoelastic {
         };
         let mut rotated = stress.plane * before + half;
         if D > 1 {
-            let half_spin = (g - g.transpose()) * 0.25;
+            let half_spin = (l - l.transpose()) * 0.25;
             let rotation =
                 inverse(&(Matrix::identity() - half_spin)) * (Matrix::identity() + half_spin);
             rotated = rotation * rotated * rotation.transpose();
@@ -148,7 +136,7 @@ impl<const D: usize> Material<D> for Hypoelastic {
         }
         stress.plane = (rotated + half) * after;
         if self.axisymmetric {
-            let increment = pressure + 2.0 * self.mu * hoop_strain;
+            let increment = pressure + 2.0 * self.mu * hoop;
             stress.transverse = (stress.transverse * before + increment) * after;
         }
     }

@@ -19,7 +19,11 @@ impl<const D: usize> Observer<D> for BodyTable {
         let spins: &[&str] = match D {
             1 => &[],
             2 => &["angular_momentum_z"],
-            _ => &["angular_momentum_x", "angular_momentum_y", "angular_momentum_z"],
+            _ => &[
+                "angular_momentum_x",
+                "angular_momentum_y",
+                "angular_momentum_z",
+            ],
         };
         std::iter::once("time".to_string())
             .chain(components::<D>("position"))

@@ -26,7 +26,12 @@ impl<const D: usize> Observer<D> for EnergyTable {
         ];
         ["time", "step", "kinetic", "elastic", "potential"]
             .into_iter()
-            .chain(optional.into_iter().filter(|(there, _)| *there).map(|(_, name)| name))
+            .chain(
+                optional
+                    .into_iter()
+                    .filter(|(there, _)| *there)
+                    .map(|(_, name)| name),
+            )
             .chain(["total", "residual"])
             .map(String::from)
             .collect()
@@ -41,10 +46,21 @@ impl<const D: usize> Observer<D> for EnergyTable {
             (self.loads, account.external_work),
             (self.boundaries, account.boundary_work),
         ];
-        [view.state.time, view.state.step as f64, stored.kinetic, stored.elastic, stored.potential]
-            .into_iter()
-            .chain(optional.into_iter().filter(|(there, _)| *there).map(|(_, value)| value))
-            .chain([account.total, account.residual])
-            .collect()
+        [
+            view.state.time,
+            view.state.step as f64,
+            stored.kinetic,
+            stored.elastic,
+            stored.potential,
+        ]
+        .into_iter()
+        .chain(
+            optional
+                .into_iter()
+                .filter(|(there, _)| *there)
+                .map(|(_, value)| value),
+        )
+        .chain([account.total, account.residual])
+        .collect()
     }
 }

@@ -44,7 +44,10 @@ pub trait Observer<const D: usize> {
 
 /// `name_x`, `name_y`, `name_z` for a vector, or `name_xx` … for pairs.
 fn components<const D: usize>(name: &str) -> impl Iterator<Item = String> {
-    ["x", "y", "z"].into_iter().take(D).map(move |axis| format!("{name}_{axis}"))
+    ["x", "y", "z"]
+        .into_iter()
+        .take(D)
+        .map(move |axis| format!("{name}_{axis}"))
 }
 
 /// Numbers of a vector.

@@ -24,7 +24,9 @@ impl<const D: usize> Observer<D> for ProbeTable {
     }
 
     fn header(&self) -> Vec<String> {
-        let stresses = (0..D).map(|a| (a, a)).chain((0..D).flat_map(|a| (a + 1..D).map(move |b| (a, b))));
+        let stresses = (0..D)
+            .map(|a| (a, a))
+            .chain((0..D).flat_map(|a| (a + 1..D).map(move |b| (a, b))));
         std::iter::once("time".to_string())
             .chain(components::<D>("position"))
             .chain(components::<D>("velocity"))

@@ -105,7 +105,10 @@ impl CsvSink {
     }
 
     fn explain(&self, name: &str, error: impl std::fmt::Display) -> io::Error {
-        io::Error::other(format!("cannot write {}: {error}", self.path(name).display()))
+        io::Error::other(format!(
+            "cannot write {}: {error}",
+            self.path(name).display()
+        ))
     }
 }
 
@@ -113,7 +116,9 @@ impl Sink for CsvSink {
     fn open(&mut self, name: &str, header: &[String]) -> io::Result<()> {
         let file = File::create(self.path(name)).map_err(|error| self.explain(name, error))?;
         let mut writer = csv::Writer::from_writer(file);
-        writer.write_record(header).map_err(|error| self.explain(name, error))?;
+        writer
+            .write_record(header)
+            .map_err(|error| self.explain(name, error))?;
         writer.flush().map_err(|error| self.explain(name, error))?;
         self.files.insert(name.to_string(), writer);
         Ok(())
@@ -137,7 +142,10 @@ impl Sink for CsvSink {
     fn frame(&mut self, frame: Frame) -> io::Result<()> {
         let stride = frame.points.len().div_ceil(MOST_SHOWN).max(1);
         let points = frame.points.into_iter().step_by(stride).collect();
-        self.frames.push(Frame { time: frame.time, points });
+        self.frames.push(Frame {
+            time: frame.time,
+            points,
+        });
         Ok(())
     }
 
@@ -165,7 +173,11 @@ impl Table {
     /// A column by name; empty if there is none.
     pub fn column(&self, name: &str) -> Vec<f64> {
         match self.header.iter().position(|header| header == name) {
-            Some(index) => self.rows.iter().filter_map(|row| row.get(index).copied()).collect(),
+            Some(index) => self
+                .rows
+                .iter()
+                .filter_map(|row| row.get(index).copied())
+                .collect(),
             None => Vec::new(),
         }
     }
@@ -185,18 +197,31 @@ pub struct Memory {
 impl Memory {
     /// A column of a table; empty if there is none.
     pub fn column(&self, table: &str, column: &str) -> Vec<f64> {
-        self.tables.get(table).map(|table| table.column(column)).unwrap_or_default()
+        self.tables
+            .get(table)
+            .map(|table| table.column(column))
+            .unwrap_or_default()
     }
 }
 
 impl Sink for Memory {
     fn open(&mut self, name: &str, header: &[String]) -> io::Result<()> {
-        self.tables.insert(name.to_string(), Table { header: header.to_vec(), rows: Vec::new() });
+        self.tables.insert(
+            name.to_string(),
+            Table {
+                header: header.to_vec(),
+                rows: Vec::new(),
+            },
+        );
         Ok(())
     }
 
     fn row(&mut self, name: &str, row: &[f64]) -> io::Result<()> {
-        self.tables.entry(name.to_string()).or_default().rows.push(row.to_vec());
+        self.tables
+            .entry(name.to_string())
+            .or_default()
+            .rows
+            .push(row.to_vec());
         Ok(())
     }
 

@@ -94,7 +94,10 @@ impl<const D: usize> GridStep<'_, D> {
             let (first, last) = this.ranges[index];
             // SAFETY: rows share no node and no constraint
             let (main, constraints) = unsafe {
-                (main.slice(nodes.clone()), constraints.slice(first as usize..last as usize))
+                (
+                    main.slice(nodes.clone()),
+                    constraints.slice(first as usize..last as usize),
+                )
             };
             let change: &mut [Node] = if split {
                 // SAFETY: as above
@@ -102,7 +105,11 @@ impl<const D: usize> GridStep<'_, D> {
             } else {
                 &mut []
             };
-            let external = if this.external.is_empty() { &[] } else { &this.external[nodes] };
+            let external = if this.external.is_empty() {
+                &[]
+            } else {
+                &this.external[nodes]
+            };
             this.row(main, change, external, constraints)
         });
     }
@@ -132,7 +139,10 @@ impl<const D: usize> GridStep<'_, D> {
             let (first, last) = ranges[index];
             for constraint in &constraints[first as usize..last as usize] {
                 let node = &mut nodes[constraint.offset as usize];
-                let place = Place { position: constraint.position, time };
+                let place = Place {
+                    position: constraint.position,
+                    time,
+                };
                 let imposed = boundaries[constraint.boundary].impose(&place, &vector(node));
                 node.0[..D].copy_from_slice(imposed.as_slice());
             }
@@ -179,12 +189,20 @@ impl<const D: usize> Shared<'_, D> {
                 if let Some(change) = change.get_mut(k) {
                     *change = Node::default();
                 }
-                here.iter_mut().for_each(|constraint| constraint.impulse = Vector::zeros());
+                here.iter_mut()
+                    .for_each(|constraint| constraint.impulse = Vector::zeros());
                 continue;
             }
             let force = external.get(k).map_or(Vector::zeros(), vector);
             let internal = change.get(k).map(vector);
-            let (velocity, difference) = self.node(mass, vector(&main[k]) / mass, internal, force, here, &mut sums);
+            let (velocity, difference) = self.node(
+                mass,
+                vector(&main[k]) / mass,
+                internal,
+                force,
+                here,
+                &mut sums,
+            );
             main[k].0[..D].copy_from_slice(velocity.as_slice());
             if let Some(change) = change.get_mut(k) {
                 change.0[..D].copy_from_slice(difference.as_slice());
@@ -208,13 +226,18 @@ impl<const D: usize> Shared<'_, D> {
         if internal.is_some() {
             // a node that is held starts the step with the velocity of its wall; what its points brought is lost
             for constraint in constraints.iter_mut() {
-                let place = Place { position: constraint.position, time: self.time };
+                let place = Place {
+                    position: constraint.position,
+                    time: self.time,
+                };
                 let before = start;
                 start = self.boundaries[constraint.boundary].impose(&place, &start);
                 constraint.impulse = (start - before) * (mass * (1.0 - self.ratio));
             }
         } else {
-            constraints.iter_mut().for_each(|constraint| constraint.impulse = Vector::zeros());
+            constraints
+                .iter_mut()
+                .for_each(|constraint| constraint.impulse = Vector::zeros());
         }
         let pull = internal.unwrap_or_else(Vector::zeros);
         let free = start + (self.gravity + (pull + external) / mass) * self.dt;
@@ -222,13 +245,19 @@ impl<const D: usize> Shared<'_, D> {
         let mut end = damped;
         let mut taken = 0.0; // work of all conditions, half of it known now, the other when the end velocity is
         for constraint in constraints.iter_mut() {
-            let place = Place { position: constraint.position, time: self.time + self.dt };
+            let place = Place {
+                position: constraint.position,
+                time: self.time + self.dt,
+            };
             let condition = &self.boundaries[constraint.boundary];
             let before = end;
             end = condition.impose(&place, &end);
             constraint.impulse += (end - before) * mass;
             let wall = condition.wall_velocity(&place)
-                + condition.wall_velocity(&Place { time: self.time, ..place });
+                + condition.wall_velocity(&Place {
+                    time: self.time,
+                    ..place
+                });
             taken += 0.5 * constraint.impulse.dot(&wall);
         }
         let middle = (start + end) * 0.5;

@@ -4,7 +4,8 @@
 
 use super::lane::Portable;
 use super::stencil::{
-    Columns, Gathered, Pass, Rates, Reach, Scattered, Sources, Tile, Wanted, gather, scatter, scatter_forces,
+    Columns, Gathered, Pass, Rates, Reach, Scattered, Sources, Tile, Wanted, gather, scatter,
+    scatter_forces,
 };
 use crate::basis::Basis;
 use crate::grid::{Block, Geometry, Node};
@@ -179,7 +180,10 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
     ) {
         let pass = self.pass(context);
         let [main, force] = targets;
-        with_lanes!(context.wide, scatter(&pass, columns, block, context.edge, what, main, force));
+        with_lanes!(
+            context.wide,
+            scatter(&pass, columns, block, context.edge, what, main, force)
+        );
     }
 
     unsafe fn scatter_forces(
@@ -192,7 +196,16 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
     ) {
         let pass = self.pass(context);
         // SAFETY: as the caller says; loaded points are few, so that wide instructions bring nothing
-        unsafe { scatter_forces::<Portable, D, N, B, T>(&pass, columns, block, context.edge, nodes, forces) }
+        unsafe {
+            scatter_forces::<Portable, D, N, B, T>(
+                &pass,
+                columns,
+                block,
+                context.edge,
+                nodes,
+                forces,
+            )
+        }
     }
 
     unsafe fn gather(
@@ -207,7 +220,10 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
         rates: &mut Rates<D>,
     ) -> Gathered {
         let pass = self.pass(context);
-        with_lanes!(context.wide, gather(&pass, columns, tile, reach, rows, what, sources, rates))
+        with_lanes!(
+            context.wide,
+            gather(&pass, columns, tile, reach, rows, what, sources, rates)
+        )
     }
 }
 
@@ -244,7 +260,9 @@ mod wide {
         rates: &mut Rates<D>,
     ) -> Gathered {
         // SAFETY: passed on to the caller
-        unsafe { super::gather::<Avx, D, N, B, T>(pass, columns, tile, reach, rows, what, sources, rates) }
+        unsafe {
+            super::gather::<Avx, D, N, B, T>(pass, columns, tile, reach, rows, what, sources, rates)
+        }
     }
 }
 

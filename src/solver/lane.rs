@@ -67,7 +67,12 @@ impl Lane for Portable {
     fn mul_add(self, b: Self, c: Self) -> Self {
         // not f64::mul_add: without the instruction it is a slow library call
         let (a, b, c) = (self.0, b.0, c.0);
-        Self([a[0] * b[0] + c[0], a[1] * b[1] + c[1], a[2] * b[2] + c[2], a[3] * b[3] + c[3]])
+        Self([
+            a[0] * b[0] + c[0],
+            a[1] * b[1] + c[1],
+            a[2] * b[2] + c[2],
+            a[3] * b[3] + c[3],
+        ])
     }
 }
 

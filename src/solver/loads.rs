@@ -40,8 +40,14 @@ impl<const D: usize> Loads<D> {
     /// Loads whose points have not been looked up yet.
     pub fn new(loads: Vec<Load<D>>) -> Self {
         Self {
-            rows: loads.iter().map(|load| Vec::with_capacity(load.points.len())).collect(),
-            now: loads.iter().map(|load| Vec::with_capacity(load.points.len())).collect(),
+            rows: loads
+                .iter()
+                .map(|load| Vec::with_capacity(load.points.len()))
+                .collect(),
+            now: loads
+                .iter()
+                .map(|load| Vec::with_capacity(load.points.len()))
+                .collect(),
             loads,
         }
     }
@@ -82,11 +88,17 @@ impl<const D: usize> Loads<D> {
             match &load.force {
                 LoadForce::Forces(forces, factor) => {
                     let factor = factor(time);
-                    now.extend(rows.iter().map(|&(row, entry)| (row, forces[entry as usize] * factor)));
+                    now.extend(
+                        rows.iter()
+                            .map(|&(row, entry)| (row, forces[entry as usize] * factor)),
+                    );
                 }
                 LoadForce::Acceleration(origins, field) => {
                     now.extend(rows.iter().map(|&(row, entry)| {
-                        (row, field(&origins[entry as usize], time) * mass(load.body, row))
+                        (
+                            row,
+                            field(&origins[entry as usize], time) * mass(load.body, row),
+                        )
                     }));
                 }
             }

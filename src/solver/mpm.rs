@@ -1,6 +1,7 @@
 //! The material point method: one step, as the algorithm box of a paper would print it.
 
 use super::integrate::{Constraint, GridStep};
+use super::kernels::Kernels;
 use super::ledger::{GridSums, Ledger, Stored};
 use super::loads::{Load, Loads};
 use super::sort::Scratch;
@@ -11,7 +12,6 @@ use crate::grid::{Blocks, Geometry, Node, block_edge};
 use crate::math::{Sum, Vector};
 use crate::scenario::Scheme;
 use crate::state::State;
-use super::kernels::Kernels;
 
 /// Everything that a solver is told before a run.
 pub struct Setup<const D: usize> {
@@ -143,7 +143,9 @@ impl<const D: usize> Mpm<D> {
         };
         step.integrate(&mut self.row_sums, self.parallel);
         self.react(dt);
-        self.row_sums.iter().fold(GridSums::default(), GridSums::and)
+        self.row_sums
+            .iter()
+            .fold(GridSums::default(), GridSums::and)
     }
 
     /// Sums the impulses of each boundary.
@@ -255,14 +257,19 @@ impl<const D: usize> Solver<D> for Mpm<D> {
     }
 
     fn stored(&self, state: &State<D>) -> Stored {
-        let (mut kinetic, mut elastic, mut potential) = (Sum::default(), Sum::default(), Sum::default());
+        let (mut kinetic, mut elastic, mut potential) =
+            (Sum::default(), Sum::default(), Sum::default());
         for body in &state.bodies {
             let totals = body.totals();
             kinetic.add(totals.kinetic);
             elastic.add(totals.elastic);
             potential.add(-totals.mass * self.gravity.dot(&totals.position));
         }
-        Stored { kinetic: kinetic.value(), elastic: elastic.value(), potential: potential.value() }
+        Stored {
+            kinetic: kinetic.value(),
+            elastic: elastic.value(),
+            potential: potential.value(),
+        }
     }
 
     fn ledger(&self) -> &Ledger<D> {
@@ -270,7 +277,11 @@ impl<const D: usize> Solver<D> for Mpm<D> {
     }
 
     fn limit(&self, _state: &State<D>) -> Limit {
-        Limit { wave_speed: self.wave_speed, particle_speed: self.speed, cell_size: self.geometry.cell_size }
+        Limit {
+            wave_speed: self.wave_speed,
+            particle_speed: self.speed,
+            cell_size: self.geometry.cell_size,
+        }
     }
 
     fn angular_momentum(&self, state: &State<D>, body: usize) -> Vec<f64> {
@@ -302,7 +313,10 @@ impl<const D: usize> Solver<D> for Mpm<D> {
     }
 
     fn bytes_per_node(&self) -> usize {
-        let arrays = 1 + usize::from(self.kernels.change()) + usize::from(self.has_second()) + usize::from(!self.loads.is_empty());
+        let arrays = 1
+            + usize::from(self.kernels.change())
+            + usize::from(self.has_second())
+            + usize::from(!self.loads.is_empty());
         arrays * size_of::<Node>()
     }
 }

@@ -43,7 +43,13 @@ fn for_each(count: usize, points_each: usize, parallel: bool, work: impl Fn(usiz
 
 impl<const D: usize> Mpm<D> {
     fn context(&self, body: usize, dt: f64) -> Context<'_, D> {
-        Context { geometry: &self.geometry, body, edge: self.edge, dt, wide: self.wide }
+        Context {
+            geometry: &self.geometry,
+            body,
+            edge: self.edge,
+            dt,
+            wide: self.wide,
+        }
     }
 
     /// Zeroes the nodes that the step will add to.
@@ -56,27 +62,75 @@ impl<const D: usize> Mpm<D> {
 
     /// Momenta, masses and internal forces.
     pub(super) fn points_to_grid(&mut self, state: &mut State<D>, dt: f64) {
-        let (main, force) = (Target(self.main.as_mut_ptr()), Target(self.change.as_mut_ptr()));
-        self.scatter_pass(state, dt, Scattered { momentum: true, force: true }, main, force);
+        let (main, force) = (
+            Target(self.main.as_mut_ptr()),
+            Target(self.change.as_mut_ptr()),
+        );
+        self.scatter_pass(
+            state,
+            dt,
+            Scattered {
+                momentum: true,
+                force: true,
+            },
+            main,
+            force,
+        );
     }
 
     /// Momenta and masses.
     pub(super) fn momenta_to_grid(&mut self, state: &mut State<D>, dt: f64) {
-        let (main, force) = (Target(self.main.as_mut_ptr()), Target(self.change.as_mut_ptr()));
-        self.scatter_pass(state, dt, Scattered { momentum: true, force: false }, main, force);
+        let (main, force) = (
+            Target(self.main.as_mut_ptr()),
+            Target(self.change.as_mut_ptr()),
+        );
+        self.scatter_pass(
+            state,
+            dt,
+            Scattered {
+                momentum: true,
+                force: false,
+            },
+            main,
+            force,
+        );
     }
 
     /// Internal forces.
     pub(super) fn forces_to_grid(&mut self, state: &mut State<D>, dt: f64) {
-        let (main, force) = (Target(self.main.as_mut_ptr()), Target(self.change.as_mut_ptr()));
-        self.scatter_pass(state, dt, Scattered { momentum: false, force: true }, main, force);
+        let (main, force) = (
+            Target(self.main.as_mut_ptr()),
+            Target(self.change.as_mut_ptr()),
+        );
+        self.scatter_pass(
+            state,
+            dt,
+            Scattered {
+                momentum: false,
+                force: true,
+            },
+            main,
+            force,
+        );
     }
 
     /// Momenta and masses, into the second array.
     pub(super) fn momenta_to_grid_again(&mut self, state: &mut State<D>, dt: f64) {
         clear(&mut self.second, &self.blocks.rows, self.parallel);
-        let (second, force) = (Target(self.second.as_mut_ptr()), Target(self.change.as_mut_ptr()));
-        self.scatter_pass(state, dt, Scattered { momentum: true, force: false }, second, force);
+        let (second, force) = (
+            Target(self.second.as_mut_ptr()),
+            Target(self.change.as_mut_ptr()),
+        );
+        self.scatter_pass(
+            state,
+            dt,
+            Scattered {
+                momentum: true,
+                force: false,
+            },
+            second,
+            force,
+        );
     }
 
     fn scatter_pass(
@@ -97,7 +151,15 @@ impl<const D: usize> Mpm<D> {
                     let (main, force) = (main, force);
                     let block = &own.blocks[colour[i] as usize];
                     // SAFETY: blocks of one colour share no node and no row; the tile of a block is stored
-                    unsafe { self.kernels.scatter(&context, &columns, block, what, [{ main }.0, { force }.0]) };
+                    unsafe {
+                        self.kernels.scatter(
+                            &context,
+                            &columns,
+                            block,
+                            what,
+                            [{ main }.0, { force }.0],
+                        )
+                    };
                 });
             }
         }
@@ -109,7 +171,9 @@ impl<const D: usize> Mpm<D> {
             return;
         }
         let mut loads = std::mem::replace(&mut self.loads, super::Loads::new(Vec::new()));
-        loads.evaluate(state.time, |body, row| state.bodies[body].particles.mass[row as usize]);
+        loads.evaluate(state.time, |body, row| {
+            state.bodies[body].particles.mass[row as usize]
+        });
         let external = Target(self.external.as_mut_ptr());
         for load in 0..loads.len() {
             let index = loads.body(load);
@@ -123,7 +187,15 @@ impl<const D: usize> Mpm<D> {
                     let forces = loads.in_rows(load, block.points());
                     if !forces.is_empty() {
                         // SAFETY: as for the points' momenta
-                        unsafe { self.kernels.scatter_forces(&context, &columns, block, { external }.0, forces) };
+                        unsafe {
+                            self.kernels.scatter_forces(
+                                &context,
+                                &columns,
+                                block,
+                                { external }.0,
+                                forces,
+                            )
+                        };
                     }
                 });
             }
@@ -132,32 +204,82 @@ impl<const D: usize> Mpm<D> {
     }
 
     /// Update stress last: velocities, positions and stresses from the velocities at the end of the step.
-    pub(super) fn move_and_strain_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        let what = Wanted { velocity: true, position: true, rate: true, same: true };
+    pub(super) fn move_and_strain_points(
+        &mut self,
+        state: &mut State<D>,
+        dt: f64,
+        from: &Sources,
+    ) -> Gathered {
+        let what = Wanted {
+            velocity: true,
+            position: true,
+            rate: true,
+            same: true,
+        };
         self.gather_pass(state, dt, what, from)
     }
 
     /// Velocities and positions.
-    pub(super) fn move_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        let what = Wanted { velocity: true, position: true, rate: false, same: false };
+    pub(super) fn move_points(
+        &mut self,
+        state: &mut State<D>,
+        dt: f64,
+        from: &Sources,
+    ) -> Gathered {
+        let what = Wanted {
+            velocity: true,
+            position: true,
+            rate: false,
+            same: false,
+        };
         self.gather_pass(state, dt, what, from)
     }
 
     /// Velocities.
-    pub(super) fn accelerate_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        let what = Wanted { velocity: true, position: false, rate: false, same: false };
+    pub(super) fn accelerate_points(
+        &mut self,
+        state: &mut State<D>,
+        dt: f64,
+        from: &Sources,
+    ) -> Gathered {
+        let what = Wanted {
+            velocity: true,
+            position: false,
+            rate: false,
+            same: false,
+        };
         self.gather_pass(state, dt, what, from)
     }
 
     /// Stresses from the second velocities.
-    pub(super) fn strain_points(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        let what = Wanted { velocity: false, position: false, rate: true, same: false };
+    pub(super) fn strain_points(
+        &mut self,
+        state: &mut State<D>,
+        dt: f64,
+        from: &Sources,
+    ) -> Gathered {
+        let what = Wanted {
+            velocity: false,
+            position: false,
+            rate: true,
+            same: false,
+        };
         self.gather_pass(state, dt, what, from)
     }
 
     /// Positions from the velocities at the end of the step, stresses from the second velocities.
-    pub(super) fn move_points_and_strain_by_second(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        let what = Wanted { velocity: false, position: true, rate: true, same: false };
+    pub(super) fn move_points_and_strain_by_second(
+        &mut self,
+        state: &mut State<D>,
+        dt: f64,
+        from: &Sources,
+    ) -> Gathered {
+        let what = Wanted {
+            velocity: false,
+            position: true,
+            rate: true,
+            same: false,
+        };
         self.gather_pass(state, dt, what, from)
     }
 
@@ -182,7 +304,15 @@ impl<const D: usize> Mpm<D> {
             results.resize(blocks.len(), Gathered::NONE);
             let work = |block: &Block<D>| {
                 let from = from;
-                self.gather_block(&context, &columns, block, &shift, material, what, &{ from }.0)
+                self.gather_block(
+                    &context,
+                    &columns,
+                    block,
+                    &shift,
+                    material,
+                    what,
+                    &{ from }.0,
+                )
             };
             if self.parallel && blocks.len() > 1 {
                 results
@@ -222,7 +352,16 @@ impl<const D: usize> Mpm<D> {
             let end = first + count;
             // SAFETY: blocks share no row, and nobody writes to the grid now
             let gathered = unsafe {
-                self.kernels.gather(context, columns, &tile, &reach, first..end, what, from, &mut rates)
+                self.kernels.gather(
+                    context,
+                    columns,
+                    &tile,
+                    &reach,
+                    first..end,
+                    what,
+                    from,
+                    &mut rates,
+                )
             };
             total = total.and(gathered);
             if what.rate {
@@ -248,7 +387,9 @@ fn clear<const D: usize>(array: &mut [Node], rows: &[crate::grid::Row<D>], paral
         return;
     }
     if parallel {
-        array.par_chunks_mut(1 << 14).for_each(|chunk| chunk.fill(Node::default()));
+        array
+            .par_chunks_mut(1 << 14)
+            .for_each(|chunk| chunk.fill(Node::default()));
     } else {
         for row in rows {
             array[row.start as usize..(row.start + row.len) as usize].fill(Node::default());

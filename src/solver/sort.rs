@@ -1,9 +1,9 @@
 //! Keeps the points of each body ordered by the block of the grid that they are in.
 
 use super::integrate::Constraint;
+use super::kernels::Kernels;
 use super::mpm::Mpm;
 use super::{Fault, Place};
-use super::kernels::Kernels;
 use crate::grid::{Geometry, Row};
 use crate::math::Vector;
 use crate::reorder;
@@ -34,16 +34,17 @@ impl<const D: usize> Mpm<D> {
         let (time, step) = (state.time, state.step);
         let mut result = Ok(());
         for (index, body) in state.bodies.iter_mut().enumerate() {
-            result = self.sort_body(index, body, &mut scratch).map_err(|row| {
-                self.fault(time, step, body, row)
-            });
+            result = self
+                .sort_body(index, body, &mut scratch)
+                .map_err(|row| self.fault(time, step, body, row));
             if result.is_err() {
                 break;
             }
             self.loads.locate(index, &body.particles);
         }
         if result.is_ok() {
-            self.blocks.rebuild(self.edge, &self.geometry.counts, &scratch.occupied);
+            self.blocks
+                .rebuild(self.edge, &self.geometry.counts, &scratch.occupied);
             self.lay_out();
             self.needs_sort = false;
         }
@@ -52,18 +53,37 @@ impl<const D: usize> Mpm<D> {
     }
 
     fn block_of(&self, body: usize, position: &Vector<D>) -> [i32; D] {
-        let x = self.geometry.in_cells(position, 1.0 / self.geometry.cell_size);
-        self.kernels.first(body, &x, &self.geometry.cells).map(|first| first.div_euclid(self.edge))
+        let x = self
+            .geometry
+            .in_cells(position, 1.0 / self.geometry.cell_size);
+        self.kernels
+            .first(body, &x, &self.geometry.cells)
+            .map(|first| first.div_euclid(self.edge))
     }
 
     /// Sorts one body, or names the row of a point that has no place in the grid.
-    fn sort_body(&self, index: usize, body: &mut Body<D>, scratch: &mut Scratch<D>) -> Result<(), usize> {
-        let Scratch { slots, order, leaders, seen, starts, keys, occupied } = scratch;
+    fn sort_body(
+        &self,
+        index: usize,
+        body: &mut Body<D>,
+        scratch: &mut Scratch<D>,
+    ) -> Result<(), usize> {
+        let Scratch {
+            slots,
+            order,
+            leaders,
+            seen,
+            starts,
+            keys,
+            occupied,
+        } = scratch;
         let blocks = &mut occupied[index];
         let count = body.particles.len();
         keys.clear();
         for (row, position) in body.particles.position.iter().enumerate() {
-            let x = self.geometry.in_cells(position, 1.0 / self.geometry.cell_size);
+            let x = self
+                .geometry
+                .in_cells(position, 1.0 / self.geometry.cell_size);
             // false too if x is not a number
             let inside = (0..D).all(|a| x[a] >= 0.0 && x[a] <= f64::from(self.geometry.cells[a]));
             let finite = body.particles.velocity[row].iter().all(|v| v.is_finite());
@@ -93,7 +113,11 @@ impl<const D: usize> Mpm<D> {
             starts[slot + 1] += starts[slot];
         }
         blocks.clear();
-        blocks.extend(keys.iter().enumerate().map(|(slot, key)| (*key, (starts[slot], starts[slot + 1]))));
+        blocks.extend(
+            keys.iter()
+                .enumerate()
+                .map(|(slot, key)| (*key, (starts[slot], starts[slot + 1]))),
+        );
         let sorted = slots.is_sorted();
         if !sorted {
             order.clear();
@@ -123,7 +147,8 @@ impl<const D: usize> Mpm<D> {
         if !self.loads.is_empty() {
             self.external.resize(stored, Default::default());
         }
-        self.row_sums.resize(self.blocks.rows.len(), Default::default());
+        self.row_sums
+            .resize(self.blocks.rows.len(), Default::default());
         self.constraints.clear();
         self.constraint_ranges.clear();
         for row in &self.blocks.rows {
@@ -140,8 +165,10 @@ impl<const D: usize> Mpm<D> {
                     }
                 }));
             }
-            self.constraints[first..].sort_by_key(|constraint| (constraint.offset, constraint.boundary));
-            self.constraint_ranges.push((first as u32, self.constraints.len() as u32));
+            self.constraints[first..]
+                .sort_by_key(|constraint| (constraint.offset, constraint.boundary));
+            self.constraint_ranges
+                .push((first as u32, self.constraints.len() as u32));
         }
     }
 
@@ -158,7 +185,11 @@ impl<const D: usize> Mpm<D> {
             velocity: velocity.iter().copied().collect(),
             courant: self.last_dt * self.wave_speed / self.geometry.cell_size,
         };
-        if position.iter().chain(velocity.iter()).all(|x| x.is_finite()) {
+        if position
+            .iter()
+            .chain(velocity.iter())
+            .all(|x| x.is_finite())
+        {
             Fault::Escaped(place)
         } else {
             Fault::NotFinite(place)
@@ -167,7 +198,11 @@ impl<const D: usize> Mpm<D> {
 }
 
 /// Position of a node, m.
-fn node_position<const D: usize>(g: &Geometry<D>, kernels: &dyn Kernels<D>, node: &[i32; D]) -> Vector<D> {
+fn node_position<const D: usize>(
+    g: &Geometry<D>,
+    kernels: &dyn Kernels<D>,
+    node: &[i32; D],
+) -> Vector<D> {
     Vector::from_fn(|a, _| g.min[a] + g.cell_size * kernels.position(node[a], g.cells[a]))
 }
 

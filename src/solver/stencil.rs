@@ -28,6 +28,8 @@ pub struct Tile<const D: usize> {
     width: usize,
     /// N, in a form that keeps the compiler from unrolling all N³ nodes of a 3D stencil, which takes it long and wins nothing.
     n: usize,
+    /// The last place where a stencil may start.
+    last: i32,
     origin: [i32; D],
 }
 
@@ -68,6 +70,7 @@ impl<const D: usize> Tile<D> {
             rows,
             width,
             n: std::hint::black_box(n),
+            last: edge as i32 + 1,
             origin: block.origin,
         }
     }
@@ -77,8 +80,8 @@ impl<const D: usize> Tile<D> {
     fn local(&self, first: [i32; D]) -> [usize; D] {
         let mut t = [0; D];
         for a in 0..D {
-            let local = first[a] - self.origin[a] + 1;
-            debug_assert!(local >= 0 && (D == 1 || (local as usize) < self.width));
+            // never clamps a point that was sorted and moved by this solver; keeps one that somebody else moved in memory
+            let local = (first[a] - self.origin[a] + 1).clamp(0, self.last);
             t[a] = local as usize;
         }
         t
@@ -267,8 +270,7 @@ unsafe fn gather_linear<L: Lane, const D: usize, const N: usize>(
             for i in 0..tile.n {
                 let (mut value, mut dy, mut dz) = (zero, zero, zero);
                 for j in 0..N {
-                    let (v, c) =
-                        row(tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2]);
+                    let (v, c) = row(tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2]);
                     let wj = L::splat(w[1][j]);
                     value = wj.mul_add(v, value);
                     dy = L::splat(g[1][j]).mul_add(v, dy);
@@ -390,8 +392,8 @@ struct Stencil<const D: usize, const N: usize> {
     weight: [[f64; N]; D],
     /// Per metre.
     slope: [[f64; N]; D],
-    first: [i32; D],
-    x: [f64; D],
+    /// x_i − x, in cells.
+    arm: [[f64; N]; D],
 }
 
 impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
@@ -402,11 +404,13 @@ impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
     {
         let inverse = 1.0 / self.geometry.cell_size;
         let x = self.geometry.in_cells(position, inverse);
-        let (mut first, mut weight, mut slope) = ([0; D], [[0.0; N]; D], [[0.0; N]; D]);
+        let mut first = [0; D];
+        let (mut weight, mut slope, mut arm) = ([[0.0; N]; D], [[0.0; N]; D], [[0.0; N]; D]);
         for a in 0..D {
             let axis = self.basis[a].axis(x[a], self.geometry.cells[a]);
             first[a] = axis.first;
             weight[a] = axis.weight;
+            arm[a] = axis.arm;
             for i in 0..N {
                 slope[a][i] = axis.slope[i] * inverse;
             }
@@ -415,25 +419,8 @@ impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
             at: tile.local(first),
             weight,
             slope,
-            first,
-            x,
+            arm,
         }
-    }
-
-    /// x_i − x of the nodes of a stencil along each axis, in cells.
-    #[inline(always)]
-    fn arms<const N: usize>(&self, s: &Stencil<D, N>) -> [[f64; N]; D]
-    where
-        B: Basis<N>,
-    {
-        let mut arms = [[0.0; N]; D];
-        for a in 0..D {
-            for i in 0..N {
-                let node = s.first[a] + i as i32;
-                arms[a][i] = self.basis[a].position(node, self.geometry.cells[a]) - s.x[a];
-            }
-        }
-        arms
     }
 
     /// The functions whose gathered velocities are the columns of APIC's C, per metre: N_i (x_i − x) / D with
@@ -446,7 +433,7 @@ impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
         if B::AFFINE_IS_SLOPE {
             return s.slope;
         }
-        let mut weights = self.arms(s);
+        let mut weights = s.arm;
         for a in 0..D {
             let mut inertia = 0.0;
             for i in 0..N {
@@ -479,13 +466,7 @@ pub struct Scattered {
 /// See the module header; `main` and `force` are arrays of the grid with all of the tile's nodes (`force` may dangle where the
 /// transfer does not use it), and no other thread adds to nodes of this tile meanwhile.
 #[inline(always)]
-pub unsafe fn scatter<
-    L: Lane,
-    const D: usize,
-    const N: usize,
-    B: Basis<N>,
-    T: Transfer,
->(
+pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<'_, D, B, T>,
     columns: &Columns<D>,
     block: &Block<D>,
@@ -499,7 +480,11 @@ pub unsafe fn scatter<
     for p in block.points() {
         // SAFETY: row p belongs to this block alone (module header)
         let (position, velocity, mass) = unsafe {
-            (*columns.position.add(p), *columns.velocity.add(p), *columns.mass.add(p))
+            (
+                *columns.position.add(p),
+                *columns.velocity.add(p),
+                *columns.mass.add(p),
+            )
         };
         let s = pass.stencil::<N>(&tile, &position);
         let mut value = [0.0; 4]; // goes with N
@@ -511,14 +496,13 @@ pub unsafe fn scatter<
             }
             value[D] = mass;
             if T::AFFINE {
-                let arms = pass.arms(&s);
                 // SAFETY: as above
                 let affine = unsafe { &*columns.affine.add(p) };
                 let scale = L::splat(mass * pass.geometry.cell_size);
                 for a in 0..D {
                     let column = lane::<L, D>(&affine.data.0[a]).mul(scale);
                     for i in 0..N {
-                        columns_of_x[a][i] = column.mul(L::splat(s.weight[a][i] * arms[a][i]));
+                        columns_of_x[a][i] = column.mul(L::splat(s.weight[a][i] * s.arm[a][i]));
                     }
                 }
             }
@@ -532,12 +516,20 @@ pub unsafe fn scatter<
                     std::slice::from_raw_parts(columns.stress.add(p * width), width),
                 )
             };
-            let scale = if T::CHANGE { -volume } else { -volume * pass.dt };
+            let scale = if T::CHANGE {
+                -volume
+            } else {
+                -volume * pass.dt
+            };
             let stress = unpack::<D>(stress);
             for a in 0..D {
                 let column = lane::<L, D>(&stress.data.0[a]).mul(L::splat(scale));
                 for i in 0..N {
-                    let x = if T::CHANGE { &mut forces } else { &mut columns_of_x };
+                    let x = if T::CHANGE {
+                        &mut forces
+                    } else {
+                        &mut columns_of_x
+                    };
                     x[a][i] = column.mul_add(L::splat(s.slope[a][i]), x[a][i]);
                 }
             }
@@ -553,7 +545,14 @@ pub unsafe fn scatter<
                     add_point(main, &tile, &s, L::new(value), T::AFFINE, columns_of_x);
                 }
                 if what.force {
-                    add_point(force, &tile, &s, L::new([hoop, 0.0, 0.0, 0.0]), true, forces);
+                    add_point(
+                        force,
+                        &tile,
+                        &s,
+                        L::new([hoop, 0.0, 0.0, 0.0]),
+                        true,
+                        forces,
+                    );
                 }
             } else {
                 value[0] += hoop;
@@ -697,13 +696,7 @@ pub struct Wanted {
 /// dangle), and no other thread uses these rows meanwhile.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub unsafe fn gather<
-    L: Lane,
-    const D: usize,
-    const N: usize,
-    B: Basis<N>,
-    T: Transfer,
->(
+pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<'_, D, B, T>,
     columns: &Columns<D>,
     tile: &Tile<D>,
@@ -727,7 +720,11 @@ pub unsafe fn gather<
         // SAFETY: the tile holds every node of the stencil (module header)
         unsafe {
             if what.rate {
-                let from = if what.same { sources.main } else { sources.second };
+                let from = if what.same {
+                    sources.main
+                } else {
+                    sources.second
+                };
                 let (value, gradient) = gather_linear::<L, D, N>(from, tile, t, w, &s.slope);
                 rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
                 hoop_velocity = value.array()[0];
@@ -740,7 +737,9 @@ pub unsafe fn gather<
                 let (value, gradient) = gather_linear::<L, D, N>(sources.main, tile, t, w, &g);
                 *columns.affine.add(p) = matrix::<L, D>(&gradient);
                 new = value;
-            } else if !(what.rate && what.same) && (what.position || (what.velocity && (blend || !T::CHANGE))) {
+            } else if !(what.rate && what.same)
+                && (what.position || (what.velocity && (blend || !T::CHANGE)))
+            {
                 new = gather_value::<L, D, N>(sources.main, tile, t, w);
             }
         }
@@ -798,11 +797,13 @@ impl<const D: usize> Reach<D> {
     #[inline(always)]
     pub fn new(origin: [i32; D], edge: i32, cells: [i32; D], shift: [f64; D]) -> Self {
         // a hair inside, so that rounding cannot put a stencil's start beyond the tile
-        let hair = 1e-9 + cells.iter().fold(0.0, |most: f64, &n| most.max(f64::from(n))) * 1e-15;
+        let hair = 1e-9
+            + cells
+                .iter()
+                .fold(0.0, |most: f64, &n| most.max(f64::from(n)))
+                * 1e-15;
         Self {
-            low: std::array::from_fn(|a| {
-                (f64::from(origin[a] - 1) - shift[a] + hair).max(0.0)
-            }),
+            low: std::array::from_fn(|a| (f64::from(origin[a] - 1) - shift[a] + hair).max(0.0)),
             high: std::array::from_fn(|a| {
                 (f64::from(origin[a] + edge + 1) - shift[a] - hair).min(f64::from(cells[a]))
             }),

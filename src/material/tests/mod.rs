@@ -4,7 +4,8 @@ mod particular;
 mod point;
 
 use super::*;
-use crate::math::{determinant, symmetric_eigen};
+use crate::math::{determinant, inverse, symmetric_eigen};
+use linear_elastic::Rate;
 use point::{Numbers, Point};
 
 const ELASTICITY: Isotropic = Isotropic {
@@ -129,8 +130,26 @@ fn objective<const D: usize>() {
         let mut point = Point::at(law, plane, f, hoop_of(plane, 1.1));
         let before = point.clone();
         let q = numbers.rotation::<D>(2.0);
-        point.step(q - Matrix::identity(), 0.0);
-        let turned = q * before.tau() * q.transpose();
+        let mut turned = q * before.tau() * q.transpose();
+        if law.is_hyperelastic() {
+            point.step(q - Matrix::identity(), 0.0);
+        } else {
+            // a rate law is turned by spin alone: the skew gradient whose Cayley transform is the rotation
+            let spin = (q - Matrix::identity()) * inverse(&(q + Matrix::identity())) * 2.0;
+            point.step(spin, 0.0);
+            // points that move along tangents grow, and τ = J σ with them if the rate is that of σ
+            if matches!(law, LawChoice::LinearElastic(law) if law.rate == Rate::Cauchy) {
+                turned *= point.volume_ratio() / before.volume_ratio();
+            }
+            let size = |tau: &Matrix<D>| tau.norm();
+            assert!(
+                (size(&point.tau()) / size(&turned) - 1.0).abs() < 1e-13,
+                "{label}"
+            );
+            let difference = (point.tau() - turned).norm() / turned.norm();
+            assert!(difference < 1e-12, "{label}: {difference}");
+            return;
+        }
         assert!(
             (turned - before.tau()).norm() > 1.0,
             "{label}: nothing to see"

@@ -99,9 +99,19 @@ fn kind(reader: &mut Reader<'_>, frame: Frame, on: Option<&Region>) -> Option<Lo
     let kind = reader.one_key(&["force", "traction", "pressure", "acceleration"])?;
     if kind == "acceleration" {
         let variables = &["x", "y", "z", "t"];
-        let variables: Vec<&str> = (variables.iter().take(frame.dimension).chain(&variables[3..])).copied().collect();
+        let variables: Vec<&str> = (variables
+            .iter()
+            .take(frame.dimension)
+            .chain(&variables[3..]))
+        .copied()
+        .collect();
         return reader
-            .expressions("acceleration", Unit::ACCELERATION, frame.dimension, &variables)
+            .expressions(
+                "acceleration",
+                Unit::ACCELERATION,
+                frame.dimension,
+                &variables,
+            )
             .map(LoadKind::Acceleration);
     }
     if kind == "force" {

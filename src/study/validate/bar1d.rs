@@ -18,11 +18,24 @@ const SCENARIO: &str = include_str!("../../../scenarios/bar1d.toml");
 
 fn run(report: &mut Report) -> Result<(), CaseError> {
     let bar = report.run(SCENARIO, &set(&[("time.end", "10 s")]))?;
-    let (time, velocity) = (bar.column("body_bar", "time"), bar.column("body_bar", "velocity_x"));
+    let (time, velocity) = (
+        bar.column("body_bar", "time"),
+        bar.column("body_bar", "velocity_x"),
+    );
     let amplitude = 0.1 * 2.0 / PI;
-    let exact: Vec<f64> = time.iter().map(|t| amplitude * (2.0 * PI * t / 10.0).cos()).collect();
-    report.at_most("velocity of the centre of mass: rms error / amplitude", rms(&velocity, &exact) / amplitude, 0.01);
-    report.table("velocity", &[("time", &time), ("computed", &velocity), ("exact", &exact)]);
+    let exact: Vec<f64> = time
+        .iter()
+        .map(|t| amplitude * (2.0 * PI * t / 10.0).cos())
+        .collect();
+    report.at_most(
+        "velocity of the centre of mass: rms error / amplitude",
+        rms(&velocity, &exact) / amplitude,
+        0.01,
+    );
+    report.table(
+        "velocity",
+        &[("time", &time), ("computed", &velocity), ("exact", &exact)],
+    );
     let points = |y: &[f64]| time.iter().copied().zip(y.iter().copied()).collect();
     report.chart(
         "velocity",

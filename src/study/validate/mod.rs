@@ -68,11 +68,26 @@ impl Recorded {
 /// # Errors
 /// If the scenario is wrong or its run goes wrong.
 pub fn simulate(text: &str, overrides: &[String], frames: bool) -> Result<Recorded, CaseError> {
-    let scenario = parse("scenario", text, overrides).map_err(CaseError::Input)?.scenario;
-    let mut memory = Memory { keep_frames: frames, ..Memory::default() };
-    let (summary, result) = with_scene(&scenario, Record { scenario: &scenario, memory: &mut memory });
+    let scenario = parse("scenario", text, overrides)
+        .map_err(CaseError::Input)?
+        .scenario;
+    let mut memory = Memory {
+        keep_frames: frames,
+        ..Memory::default()
+    };
+    let (summary, result) = with_scene(
+        &scenario,
+        Record {
+            scenario: &scenario,
+            memory: &mut memory,
+        },
+    );
     result.map_err(CaseError::Run)?;
-    Ok(Recorded { scenario, memory, summary })
+    Ok(Recorded {
+        scenario,
+        memory,
+        summary,
+    })
 }
 
 struct Record<'a> {
@@ -90,11 +105,18 @@ impl SceneVisitor for Record<'_> {
 
 /// Root of the mean square of `computed − exact`.
 pub fn rms(computed: &[f64], exact: &[f64]) -> f64 {
-    let sum: f64 = computed.iter().zip(exact).map(|(c, e)| (c - e) * (c - e)).sum();
+    let sum: f64 = computed
+        .iter()
+        .zip(exact)
+        .map(|(c, e)| (c - e) * (c - e))
+        .sum();
     (sum / computed.len().max(1) as f64).sqrt()
 }
 
 /// Overrides from pairs.
 pub fn set(pairs: &[(&str, &str)]) -> Vec<String> {
-    pairs.iter().map(|(key, value)| format!("{key}={value}")).collect()
+    pairs
+        .iter()
+        .map(|(key, value)| format!("{key}={value}"))
+        .collect()
 }

@@ -47,15 +47,32 @@ impl Report {
 
     /// Claims that `measured` differs from `expected` by at most `tolerance`, all in the same unit.
     pub fn close(&mut self, what: impl Into<String>, measured: f64, expected: f64, tolerance: f64) {
-        self.between(what, measured, Some(expected - tolerance), Some(expected + tolerance));
+        self.between(
+            what,
+            measured,
+            Some(expected - tolerance),
+            Some(expected + tolerance),
+        );
     }
 
-    fn between(&mut self, what: impl Into<String>, measured: f64, lowest: Option<f64>, highest: Option<f64>) {
+    fn between(
+        &mut self,
+        what: impl Into<String>,
+        measured: f64,
+        lowest: Option<f64>,
+        highest: Option<f64>,
+    ) {
         // a measured NaN passes nothing
         let passed = lowest.is_none_or(|limit| measured >= limit)
             && highest.is_none_or(|limit| measured <= limit)
             && measured.is_finite();
-        self.checks.push(Check { what: what.into(), measured, lowest, highest, passed });
+        self.checks.push(Check {
+            what: what.into(),
+            measured,
+            lowest,
+            highest,
+            passed,
+        });
     }
 
     /// Adds a picture with one panel or several.
@@ -67,7 +84,10 @@ impl Report {
     pub fn table(&mut self, name: &str, columns: &[(&str, &[f64])]) {
         self.tables.push((
             name.into(),
-            columns.iter().map(|(header, _)| header.to_string()).collect(),
+            columns
+                .iter()
+                .map(|(header, _)| header.to_string())
+                .collect(),
             columns.iter().map(|(_, column)| column.to_vec()).collect(),
         ));
     }
@@ -86,7 +106,11 @@ impl Report {
     ///
     /// # Errors
     /// If the scenario is wrong or its run goes wrong.
-    pub fn run_with_frames(&mut self, text: &str, overrides: &[String]) -> Result<Recorded, CaseError> {
+    pub fn run_with_frames(
+        &mut self,
+        text: &str,
+        overrides: &[String],
+    ) -> Result<Recorded, CaseError> {
         let recorded = simulate(text, overrides, true)?;
         self.watch(&recorded);
         Ok(recorded)
@@ -94,13 +118,20 @@ impl Report {
 
     fn watch(&mut self, recorded: &Recorded) {
         let residual = recorded.summary.worst_energy_residual;
-        self.worst_residual = Some(self.worst_residual.map_or(residual, |worst: f64| worst.max(residual)));
+        self.worst_residual = Some(
+            self.worst_residual
+                .map_or(residual, |worst: f64| worst.max(residual)),
+        );
     }
 
     /// Adds the claim that every case makes about the energy account of its runs.
     pub fn close_account(&mut self) {
         if let Some(worst) = self.worst_residual {
-            self.at_most("energy residual / energy turned over, worst run", worst, ENERGY_RESIDUAL);
+            self.at_most(
+                "energy residual / energy turned over, worst run",
+                worst,
+                ENERGY_RESIDUAL,
+            );
         }
     }
 
