@@ -362,7 +362,7 @@ neo_hookean = { youngs_modulus = 1e5, poissons_ratio = 0.3 }
 name = "block"
 material = "soft"
 shape.box = { min = [0.2, 0.0], max = [0.8, 0.6] }
-velocity = ["1 + y", "0.1 * x"]
+velocity = ["1 m/s + y / (1 s)", "0.1 * x / (1 s)"]
 
 [[boundary]]
 name = "floor"
