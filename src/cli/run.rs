@@ -130,7 +130,8 @@ fn make_finite(summary: &mut Summary) {
     ];
     let momenta = summary.momentum.iter_mut().flatten();
     let all = numbers.into_iter().chain(&mut summary.dt).chain(momenta);
-    all.filter(|x| !x.is_finite()).for_each(|x| *x = 0.0);
+    // adding zero turns -0.0 into 0.0
+    all.for_each(|x| *x = if x.is_finite() { *x + 0.0 } else { 0.0 });
 }
 
 fn progress_bar(arguments: &RunArguments) -> ProgressBar {
