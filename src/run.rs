@@ -163,6 +163,15 @@ pub struct Scene<const D: usize> {
     pub observers: Vec<Box<dyn Observer<D>>>,
 }
 
+/// How a scene is computed, where that makes no difference to what is computed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Computing {
+    /// Whether steps may use several threads; if not given, where that pays.
+    pub parallel: Option<bool>,
+    /// Plain arithmetic even where the processor offers more.
+    pub portable: bool,
+}
+
 /// Builds the scene of a scenario and hands it to the visitor.
 pub fn with_scene<V: SceneVisitor>(scenario: &Scenario, visitor: V) -> V::Output {
     match scenario.dimension {
@@ -174,6 +183,11 @@ pub fn with_scene<V: SceneVisitor>(scenario: &Scenario, visitor: V) -> V::Output
 
 /// Builds the scene of a scenario whose dimension is known to be `D`.
 pub fn build<const D: usize>(scenario: &Scenario) -> Scene<D> {
+    build_with(scenario, &Computing::default())
+}
+
+/// Builds the scene of a scenario, to be computed in a certain way.
+pub fn build_with<const D: usize>(scenario: &Scenario, computing: &Computing) -> Scene<D> {
     let sets: Vec<PointSet> = (0..scenario.bodies.len())
         .map(|b| body_points(scenario, b))
         .collect();
@@ -186,7 +200,18 @@ pub fn build<const D: usize>(scenario: &Scenario) -> Scene<D> {
         bodies,
     };
     let observers = observers(scenario, &state, &sets);
-    let solver = Box::new(build_solver(scenario, &state, &sets));
+    let pays = || state.point_count() >= PARALLEL_FROM && rayon::current_num_threads() > 1;
+    let solver = build_solver(
+        scenario,
+        &state,
+        &sets,
+        computing.parallel.unwrap_or_else(pays),
+    );
+    let solver = Box::new(if computing.portable {
+        solver.portable()
+    } else {
+        solver
+    });
     Scene {
         state,
         solver,
@@ -337,6 +362,7 @@ fn build_solver<const D: usize>(
     scenario: &Scenario,
     state: &State<D>,
     sets: &[PointSet],
+    parallel: bool,
 ) -> Mpm<D> {
     let method = scenario.method.basis.visit(WithBasis { scenario, state });
     Mpm::new(Setup {
@@ -360,7 +386,7 @@ fn build_solver<const D: usize>(
             .iter()
             .map(|spec| load(spec, state, sets))
             .collect(),
-        parallel: state.point_count() >= PARALLEL_FROM && rayon::current_num_threads() > 1,
+        parallel,
     })
 }
 

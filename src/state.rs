@@ -72,27 +72,70 @@ impl<const D: usize> Particles<D> {
             + numbers(self.hoop_stretch.len())
     }
 
+    /// Whether every column has one entry for each of `count` points, or none where the scene may do without.
+    pub fn are_whole(&self, count: usize, affine: bool) -> bool {
+        let hoops = if self.hoop_stretch.is_empty() {
+            0
+        } else {
+            count
+        };
+        self.position.len() == count
+            && self.velocity.len() == count
+            && self.mass.len() == count
+            && self.initial_volume.len() == count
+            && self.stress.len() == packed_len(D) * count
+            && self.affine.len() == if affine { count } else { 0 }
+            && self.hoop_stress.len() == hoops
+            && self.hoop_stretch.len() == hoops
+            && self.id.len() == count
+    }
+
     /// Re-orders all columns: row `i` becomes what row `order[i]` was.
-    pub fn permute(&mut self, order: &[u32], leaders: &[u32]) {
-        let width = packed_len(D);
-        rayon::scope(|scope| {
-            scope.spawn(|_| reorder::permute_in_place(&mut self.position, 1, order, leaders));
-            scope.spawn(|_| reorder::permute_in_place(&mut self.velocity, 1, order, leaders));
-            scope.spawn(|_| reorder::permute_in_place(&mut self.mass, 1, order, leaders));
-            scope.spawn(|_| reorder::permute_in_place(&mut self.initial_volume, 1, order, leaders));
-            scope.spawn(|_| reorder::permute_in_place(&mut self.stress, width, order, leaders));
-            scope.spawn(|_| reorder::permute_in_place(&mut self.id, 1, order, leaders));
-            if !self.affine.is_empty() {
-                scope.spawn(|_| reorder::permute_in_place(&mut self.affine, 1, order, leaders));
+    pub fn permute(&mut self, order: &[u32], leaders: &[u32], parallel: bool) {
+        let Self {
+            position,
+            velocity,
+            mass,
+            initial_volume,
+            stress,
+            affine,
+            hoop_stress,
+            hoop_stretch,
+            id,
+        } = self;
+        let mut motion = || {
+            reorder::permute_in_place(position, 1, order, leaders);
+            reorder::permute_in_place(velocity, 1, order, leaders);
+        };
+        let mut rest = || {
+            reorder::permute_in_place(mass, 1, order, leaders);
+            reorder::permute_in_place(initial_volume, 1, order, leaders);
+            reorder::permute_in_place(id, 1, order, leaders);
+        };
+        let mut stresses = || {
+            reorder::permute_in_place(stress, packed_len(D), order, leaders);
+            if !hoop_stress.is_empty() {
+                reorder::permute_in_place(hoop_stress, 1, order, leaders);
+                reorder::permute_in_place(hoop_stretch, 1, order, leaders);
             }
-            if !self.hoop_stress.is_empty() {
-                scope
-                    .spawn(|_| reorder::permute_in_place(&mut self.hoop_stress, 1, order, leaders));
-                scope.spawn(|_| {
-                    reorder::permute_in_place(&mut self.hoop_stretch, 1, order, leaders)
-                });
+        };
+        let mut affines = || {
+            if !affine.is_empty() {
+                reorder::permute_in_place(affine, 1, order, leaders);
             }
-        });
+        };
+        // each of the four moves about as many bytes; a join allocates nothing
+        if parallel {
+            rayon::join(
+                || rayon::join(motion, rest),
+                || rayon::join(stresses, affines),
+            );
+        } else {
+            motion();
+            rest();
+            stresses();
+            affines();
+        }
     }
 }
 

@@ -147,7 +147,10 @@ impl<const D: usize> Blocks<D> {
                     });
                 }
             }
-            base += rows_per_block as u32 * stride;
+            // beyond this the nodes alone take more than 100 GB
+            base = base
+                .checked_add(rows_per_block as u32 * stride)
+                .expect("fewer than 2^32 nodes are stored");
             first += length;
         }
         self.stored = base as usize;

@@ -51,6 +51,9 @@ pub trait Kernels<const D: usize>: Send + Sync {
     /// Whether forces are stored apart from momenta.
     fn change(&self) -> bool;
 
+    /// Whether points carry an affine velocity field.
+    fn affine(&self) -> bool;
+
     /// [`scatter`] for one block.
     ///
     /// # Safety
@@ -168,6 +171,10 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
 
     fn change(&self) -> bool {
         T::CHANGE
+    }
+
+    fn affine(&self) -> bool {
+        T::AFFINE
     }
 
     unsafe fn scatter(

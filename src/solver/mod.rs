@@ -8,6 +8,8 @@ mod ledger;
 mod loads;
 mod mpm;
 mod passes;
+#[cfg(test)]
+mod plain;
 mod sort;
 pub mod stencil;
 mod time_step;

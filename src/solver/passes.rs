@@ -6,7 +6,7 @@ use super::mpm::Mpm;
 use super::stencil::{CHUNK, Columns, Gathered, Rates, Reach, Scattered, Sources, Tile, Wanted};
 use crate::grid::{Block, Node};
 use crate::material::{Increments, MaterialPoints, StressMut};
-use crate::state::State;
+use crate::state::{Body, State};
 use rayon::prelude::*;
 
 /// Points that a task should have at least, so that handing it to a thread costs little.
@@ -50,6 +50,15 @@ impl<const D: usize> Mpm<D> {
             dt,
             wide: self.wide,
         }
+    }
+
+    /// The columns of a body, which has as many points as when it was sorted.
+    fn columns(&self, index: usize, body: &mut Body<D>) -> Columns<D> {
+        let count = self.blocks.bodies[index]
+            .blocks
+            .last()
+            .map_or(0, |block| block.points().end);
+        Columns::new(&mut body.particles, count, self.kernels.affine())
     }
 
     /// Zeroes the nodes that the step will add to.
@@ -142,7 +151,7 @@ impl<const D: usize> Mpm<D> {
         force: Target,
     ) {
         for (index, body) in state.bodies.iter_mut().enumerate() {
-            let columns = Columns::new(&mut body.particles);
+            let columns = self.columns(index, body);
             let context = self.context(index, dt);
             let own = &self.blocks.bodies[index];
             let points_each = body.particles.len() / own.blocks.len().max(1);
@@ -177,7 +186,7 @@ impl<const D: usize> Mpm<D> {
         let external = Target(self.external.as_mut_ptr());
         for load in 0..loads.len() {
             let index = loads.body(load);
-            let columns = Columns::new(&mut state.bodies[index].particles);
+            let columns = self.columns(index, &mut state.bodies[index]);
             let context = self.context(index, dt);
             let own = &self.blocks.bodies[index];
             for colour in &own.colours {
@@ -294,7 +303,7 @@ impl<const D: usize> Mpm<D> {
         let mut total = Gathered::NONE;
         let from = Readable(*from);
         for (index, body) in state.bodies.iter_mut().enumerate() {
-            let columns = Columns::new(&mut body.particles);
+            let columns = self.columns(index, body);
             let material = &*body.material;
             let context = self.context(index, dt);
             let blocks = &self.blocks.bodies[index].blocks;

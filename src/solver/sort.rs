@@ -128,7 +128,7 @@ impl<const D: usize> Mpm<D> {
                 *target += 1;
             }
             reorder::cycle_leaders(order, leaders, seen);
-            body.particles.permute(order, leaders);
+            body.particles.permute(order, leaders, self.parallel);
             body.material.permute(order, leaders);
         }
         Ok(())
@@ -166,7 +166,7 @@ impl<const D: usize> Mpm<D> {
                 }));
             }
             self.constraints[first..]
-                .sort_by_key(|constraint| (constraint.offset, constraint.boundary));
+                .sort_unstable_by_key(|constraint| (constraint.offset, constraint.boundary));
             self.constraint_ranges
                 .push((first as u32, self.constraints.len() as u32));
         }

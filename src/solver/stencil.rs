@@ -4,8 +4,9 @@
 //! [`Lane`], once with wide instructions and once without; `plain` beside this file says what they mean.
 //!
 //! Everything `unsafe` here rests on three facts. A point's stencil starts at most one node outside its block (checked by
-//! [`gather`] whenever a point moves, and by the sort, which refuses points that are not finite or outside the grid), so
-//! [`Tile`] addresses only stored nodes. Blocks that are scattered at the same time have the same colour, so they share no
+//! [`gather`] whenever a point moves, and by the sort, which refuses points that are not finite or outside the grid); should
+//! somebody else have moved the point meanwhile, [`Tile`] holds its stencil inside the tile, which is wrong but addresses only
+//! stored nodes, and the health check at the end of the step tells. Blocks that are scattered at the same time have the same colour, so they share no
 //! node. Blocks hold disjoint ranges of rows, so no two threads touch the same point.
 
 use super::lane::Lane;
@@ -26,10 +27,10 @@ const MAX_ROWS: usize = 169;
 pub struct Tile<const D: usize> {
     rows: [usize; MAX_ROWS],
     width: usize,
+    /// The last place at which a stencil may start, along every axis.
+    last: u32,
     /// N, in a form that keeps the compiler from unrolling all N³ nodes of a 3D stencil, which takes it long and wins nothing.
     n: usize,
-    /// The last place where a stencil may start.
-    last: i32,
     origin: [i32; D],
 }
 
@@ -69,8 +70,8 @@ impl<const D: usize> Tile<D> {
         Self {
             rows,
             width,
+            last: edge as u32 + 1,
             n: std::hint::black_box(n),
-            last: edge as i32 + 1,
             origin: block.origin,
         }
     }
@@ -80,9 +81,9 @@ impl<const D: usize> Tile<D> {
     fn local(&self, first: [i32; D]) -> [usize; D] {
         let mut t = [0; D];
         for a in 0..D {
-            // never clamps a point that was sorted and moved by this solver; keeps one that somebody else moved in memory
-            let local = (first[a] - self.origin[a] + 1).clamp(0, self.last);
-            t[a] = local as usize;
+            // below the tile is far above it in unsigned numbers
+            let local = first[a].wrapping_sub(self.origin[a]).wrapping_add(1) as u32;
+            t[a] = local.min(self.last) as usize;
         }
         t
     }
@@ -230,57 +231,76 @@ unsafe fn gather_value<L: Lane, const D: usize, const N: usize>(
     sum
 }
 
-/// Σ_I N_I node_I, and for each axis a the same with the functions `g` in place of N along that axis: Σ_I ∂_a N_I node_I.
+/// Σ_I N_I node_I, and for each set of functions `g[m]` and each axis a the same with `g[m]` in place of N along that axis: with
+/// the slopes Σ_I ∂_a N_I node_I. All sets together read the nodes once.
 #[inline(always)]
-unsafe fn gather_linear<L: Lane, const D: usize, const N: usize>(
+unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, const M: usize>(
     nodes: *const Node,
     tile: &Tile<D>,
     t: [usize; D],
     w: &[[f64; N]; D],
-    g: &[[f64; N]; D],
-) -> (L, [L; D]) {
+    g: [&[[f64; N]; D]; M],
+) -> (L, [[L; D]; M]) {
     let zero = L::splat(0.0);
     let last = splats::<L, N>(&w[D - 1]);
-    let slope = splats::<L, N>(&g[D - 1]);
-    // (value, slope along the last axis) of N nodes in a row
+    let mut slope = [[zero; N]; M];
+    for m in 0..M {
+        slope[m] = splats::<L, N>(&g[m][D - 1]);
+    }
+    // (value, slopes along the last axis) of N nodes in a row
     let row = |at: usize| {
-        let (mut value, mut change) = (zero, zero);
+        let (mut value, mut change) = (zero, [zero; M]);
         for k in 0..N {
             // SAFETY: the tile addresses stored nodes only (module header)
             let node = unsafe { L::load(nodes.add(at + k).cast()) };
             value = last[k].mul_add(node, value);
-            change = slope[k].mul_add(node, change);
+            for m in 0..M {
+                change[m] = slope[m][k].mul_add(node, change[m]);
+            }
         }
         (value, change)
     };
-    let mut gradient = [zero; D];
+    let mut gradient = [[zero; D]; M];
     let mut sum = zero;
     match D {
-        1 => (sum, gradient[0]) = row(tile.rows[0] + t[0]),
+        1 => {
+            let (value, change) = row(tile.rows[0] + t[0]);
+            sum = value;
+            for m in 0..M {
+                gradient[m][0] = change[m];
+            }
+        }
         2 => {
             for i in 0..N {
                 let (value, change) = row(tile.rows[t[0] + i] + t[1]);
                 let wi = L::splat(w[0][i]);
                 sum = wi.mul_add(value, sum);
-                gradient[0] = L::splat(g[0][i]).mul_add(value, gradient[0]);
-                gradient[1] = wi.mul_add(change, gradient[1]);
+                for m in 0..M {
+                    gradient[m][0] = L::splat(g[m][0][i]).mul_add(value, gradient[m][0]);
+                    gradient[m][1] = wi.mul_add(change[m], gradient[m][1]);
+                }
             }
         }
         _ => {
             for i in 0..tile.n {
-                let (mut value, mut dy, mut dz) = (zero, zero, zero);
+                let (mut value, mut dy, mut dz) = (zero, [zero; M], [zero; M]);
                 for j in 0..N {
-                    let (v, c) = row(tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2]);
+                    let at = tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2];
+                    let (v, c) = row(at);
                     let wj = L::splat(w[1][j]);
                     value = wj.mul_add(v, value);
-                    dy = L::splat(g[1][j]).mul_add(v, dy);
-                    dz = wj.mul_add(c, dz);
+                    for m in 0..M {
+                        dy[m] = L::splat(g[m][1][j]).mul_add(v, dy[m]);
+                        dz[m] = wj.mul_add(c[m], dz[m]);
+                    }
                 }
                 let wi = L::splat(w[0][i]);
                 sum = wi.mul_add(value, sum);
-                gradient[0] = L::splat(g[0][i]).mul_add(value, gradient[0]);
-                gradient[1] = wi.mul_add(dy, gradient[1]);
-                gradient[2] = wi.mul_add(dz, gradient[2]);
+                for m in 0..M {
+                    gradient[m][0] = L::splat(g[m][0][i]).mul_add(value, gradient[m][0]);
+                    gradient[m][1] = wi.mul_add(dy[m], gradient[m][1]);
+                    gradient[m][2] = wi.mul_add(dz[m], gradient[m][2]);
+                }
             }
         }
     }
@@ -337,7 +357,14 @@ unsafe impl<const D: usize> Sync for Columns<D> {}
 
 impl<const D: usize> Columns<D> {
     /// Pointers to the columns, valid until the columns are moved or resized.
-    pub fn new(particles: &mut Particles<D>) -> Self {
+    ///
+    /// # Panics
+    /// If the columns do not have one entry for each of `count` points, affine fields included if `affine`.
+    pub fn new(particles: &mut Particles<D>, count: usize, affine: bool) -> Self {
+        assert!(
+            particles.are_whole(count, affine),
+            "the columns of a body were resized between two steps; points are added and removed before a run only"
+        );
         Self {
             position: particles.position.as_mut_ptr(),
             velocity: particles.velocity.as_mut_ptr(),
@@ -441,7 +468,12 @@ impl<const D: usize, B, T: Transfer> Pass<'_, D, B, T> {
                 weights[a][i] *= s.weight[a][i];
                 inertia += weights[a][i] * arm;
             }
-            let scale = 1.0 / (inertia.max(f64::MIN_POSITIVE) * self.geometry.cell_size);
+            if inertia <= f64::MIN_POSITIVE {
+                // on the very end of a grid of splines one node has all the weight and no arm: the slopes are the limit
+                weights[a] = s.slope[a];
+                continue;
+            }
+            let scale = 1.0 / (inertia * self.geometry.cell_size);
             for i in 0..N {
                 weights[a][i] *= scale;
             }
@@ -719,28 +751,40 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
         let mut hoop_velocity = 0.0;
         // SAFETY: the tile holds every node of the stencil (module header)
         unsafe {
-            if what.rate {
-                let from = if what.same {
-                    sources.main
-                } else {
-                    sources.second
-                };
-                let (value, gradient) = gather_linear::<L, D, N>(from, tile, t, w, &s.slope);
-                rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
-                hoop_velocity = value.array()[0];
-                if what.same {
-                    new = value;
-                }
-            }
-            if what.velocity && T::AFFINE {
+            if what.rate && what.same && what.velocity && T::AFFINE {
                 let g = pass.affine_weights(&s);
-                let (value, gradient) = gather_linear::<L, D, N>(sources.main, tile, t, w, &g);
-                *columns.affine.add(p) = matrix::<L, D>(&gradient);
+                let (value, [gradient, affine]) =
+                    gather_linear::<L, D, N, 2>(sources.main, tile, t, w, [&s.slope, &g]);
+                rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
+                *columns.affine.add(p) = matrix::<L, D>(&affine);
+                hoop_velocity = value.array()[0];
                 new = value;
-            } else if !(what.rate && what.same)
-                && (what.position || (what.velocity && (blend || !T::CHANGE)))
-            {
-                new = gather_value::<L, D, N>(sources.main, tile, t, w);
+            } else {
+                if what.rate {
+                    let from = if what.same {
+                        sources.main
+                    } else {
+                        sources.second
+                    };
+                    let (value, [gradient]) =
+                        gather_linear::<L, D, N, 1>(from, tile, t, w, [&s.slope]);
+                    rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
+                    hoop_velocity = value.array()[0];
+                    if what.same {
+                        new = value;
+                    }
+                }
+                if what.velocity && T::AFFINE {
+                    let g = pass.affine_weights(&s);
+                    let (value, [affine]) =
+                        gather_linear::<L, D, N, 1>(sources.main, tile, t, w, [&g]);
+                    *columns.affine.add(p) = matrix::<L, D>(&affine);
+                    new = value;
+                } else if !(what.rate && what.same)
+                    && (what.position || (what.velocity && (blend || !T::CHANGE)))
+                {
+                    new = gather_value::<L, D, N>(sources.main, tile, t, w);
+                }
             }
         }
         if what.rate && D == 2 && columns.axisymmetric {

@@ -1,0 +1,200 @@
+//! The same scene gives the same bits on any number of threads.
+
+mod common;
+
+use common::{NEO_HOOKEAN, Scene, list, texts, variants};
+use mpm::run::{Computing, build_with};
+use mpm::scenario::Scenario;
+use mpm::solver::Account;
+use mpm::state::{Body, State};
+use rayon::ThreadPoolBuilder;
+
+/// Everything that a body is, in the order of the numbers of its points.
+fn bits_of<const D: usize>(body: &Body<D>) -> Vec<Vec<u64>> {
+    let p = &body.particles;
+    let mut memory = Vec::new();
+    body.material.state_bits(&mut memory);
+    let stride = memory.len() / p.len();
+    let width = p.stress.len() / p.len();
+    let mut points: Vec<Vec<u64>> = (0..p.len())
+        .map(|row| {
+            let mut numbers: Vec<f64> = p.position[row]
+                .iter()
+                .chain(p.velocity[row].iter())
+                .copied()
+                .collect();
+            numbers.extend(&p.stress[row * width..(row + 1) * width]);
+            numbers.extend(p.affine.get(row).iter().flat_map(|affine| affine.iter()));
+            numbers.extend(
+                p.hoop_stress
+                    .get(row)
+                    .iter()
+                    .chain(&p.hoop_stretch.get(row))
+                    .copied(),
+            );
+            let mut bits = vec![u64::from(p.id[row])];
+            bits.extend(numbers.iter().map(|number| number.to_bits()));
+            bits.extend(&memory[row * stride..(row + 1) * stride]);
+            bits
+        })
+        .collect();
+    points.sort();
+    points
+}
+
+/// State and account after a run, and how many times the points of a body changed their order in storage.
+#[derive(PartialEq)]
+struct Outcome {
+    bits: Vec<Vec<Vec<u64>>>,
+    account: Account,
+    reactions: Vec<Vec<u64>>,
+    sorts: usize,
+}
+
+fn order<const D: usize>(state: &State<D>) -> Vec<Vec<u32>> {
+    state
+        .bodies
+        .iter()
+        .map(|body| body.particles.id.clone())
+        .collect()
+}
+
+fn run<const D: usize>(scenario: &Scenario, steps: u32, step: f64, parallel: bool) -> Outcome {
+    let mut scene = build_with::<D>(
+        scenario,
+        &Computing {
+            parallel: Some(parallel),
+            portable: false,
+        },
+    );
+    let (state, solver) = (&mut scene.state, &mut scene.solver);
+    solver
+        .start(state)
+        .unwrap_or_else(|fault| panic!("{fault}"));
+    let mut sorts = 0;
+    for _ in 0..steps {
+        let before = order(state);
+        solver
+            .step(state, step)
+            .unwrap_or_else(|fault| panic!("{fault}"));
+        sorts += usize::from(order(state) != before);
+    }
+    let ledger = solver.ledger();
+    Outcome {
+        bits: state.bodies.iter().map(bits_of).collect(),
+        account: ledger.account(solver.stored(state)),
+        reactions: (0..scenario.boundaries.len())
+            .map(|boundary| {
+                ledger
+                    .impulse(boundary)
+                    .iter()
+                    .map(|number| number.to_bits())
+                    .collect()
+            })
+            .collect(),
+        sorts,
+    }
+}
+
+fn same_on_any_number_of_threads(scene: &Scene) {
+    let pools: Vec<_> = [1, 2, 3, 7]
+        .map(|threads| {
+            ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .expect("threads can be started")
+        })
+        .into();
+    for variant in variants() {
+        let scenario = scene.scenario(&variant);
+        let run = |parallel| match scene.dimension {
+            1 => run::<1>(&scenario, scene.steps, scene.step, parallel),
+            2 => run::<2>(&scenario, scene.steps, scene.step, parallel),
+            _ => run::<3>(&scenario, scene.steps, scene.step, parallel),
+        };
+        let name = format!("{}D {variant:?}", scene.dimension);
+        let alone = run(false);
+        assert!(
+            alone.sorts >= 2,
+            "{name}: points were re-sorted {} times",
+            alone.sorts
+        );
+        for pool in &pools {
+            let together = pool.install(|| run(true));
+            let threads = pool.current_num_threads();
+            assert!(
+                together == alone,
+                "{name}: {threads} threads give other bits than plain loops"
+            );
+        }
+    }
+}
+
+/// Two boxes that fly apart, one of them pulled, between a wall and a roller: full blocks, so that every block is a task.
+fn two_boxes(dimension: usize) -> Scene {
+    let (low, high, per_cell) = [
+        ([10.0, 0.0, 0.0], [160.0, 0.0, 0.0], 16),
+        ([3.0, 1.0, 0.0], [18.5, 19.0, 0.0], 4),
+        ([1.5, 0.0, 1.5], [6.5, 5.0, 6.5], 3),
+    ][dimension - 1];
+    let body = |name: &str, from: f64, velocity: [&str; 3]| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmaterial = \"stuff\"\nparticles_per_cell = {per_cell}\n\
+             shape.box = {{ min = {}, max = {} }}\nvelocity = {}\n",
+            list(dimension, [low[0] + from, low[1], low[2]]),
+            list(dimension, [high[0] + from, high[1], high[2]]),
+            texts(dimension, velocity),
+        )
+    };
+    let apart = high[0] - low[0] + 1.0;
+    let rest = body("left", 0.0, ["-30 - 0.1 * x", "2", "1"])
+        + &body("right", apart, ["40 + 0.1 * x", "-1", "30"])
+        + "[[load]]\nbody = \"right\"\non.side = \"x_max\"\nfactor = \"1 + 1 * t\"\n"
+        + &format!("force = {}\n", list(dimension, [50.0; 3]))
+        + "[[boundary]]\nname = \"wall\"\non.side = \"x_min\"\ncondition = \"wall\"\n"
+        + if dimension > 1 {
+            "[[boundary]]\nname = \"rail\"\non.side = \"y_min\"\ncondition = \"roller\"\n"
+        } else {
+            ""
+        }
+        + "[damping]\nrate = 0.1\n";
+    Scene {
+        dimension,
+        cells: [[400; 3], [48; 3], [18; 3]][dimension - 1],
+        cell_size: 1.0,
+        step: 0.01,
+        steps: 9,
+        law: NEO_HOOKEAN.into(),
+        head: format!("gravity = {}", list(dimension, [1.0, -9.0, 2.0])),
+        rest,
+    }
+}
+
+#[test]
+fn one_dimension() {
+    same_on_any_number_of_threads(&two_boxes(1));
+}
+
+#[test]
+fn two_dimensions() {
+    same_on_any_number_of_threads(&two_boxes(2));
+}
+
+#[test]
+fn three_dimensions() {
+    same_on_any_number_of_threads(&two_boxes(3));
+}
+
+#[test]
+fn axisymmetric() {
+    let mut scene = two_boxes(2);
+    scene.head = "plane = \"axisymmetric\"\ngravity = [0, -9]".into();
+    same_on_any_number_of_threads(&scene);
+}
+
+#[test]
+fn a_law_without_memory() {
+    let mut scene = two_boxes(2);
+    scene.law = "linear_elastic = { youngs_modulus = 100, poissons_ratio = 0.3 }".into();
+    same_on_any_number_of_threads(&scene);
+}
