@@ -413,8 +413,7 @@ fn cost<const D: usize>(
         let next = ((state.time / every * (1.0 + 1e-9)).floor() + 1.0) * every;
         let limit = solver.limit(state);
         let (dt, after) = time_step.next(state.time, next.min(scenario.end), &limit);
-        // also true if dt is not a number
-        if !(dt > 0.0) {
+        if dt.is_nan() || dt <= 0.0 {
             break;
         }
         if let Err(fault) = solver.step(state, dt) {
