@@ -265,7 +265,10 @@ impl<const D: usize> Shared<'_, D> {
         sums.left += 0.5 * mass * end.norm_squared();
         sums.internal += self.dt * pull.dot(&middle);
         sums.gravity += mass * self.dt * self.gravity.dot(&middle);
-        sums.external += self.dt * external.dot(&middle);
+        // points move with the velocity at the end: the work of a load is force times the way of its points
+        let pushed = self.dt * external.dot(&end);
+        sums.external += pushed;
+        sums.absorbed += pushed - self.dt * external.dot(&middle);
         sums.damping += mass * (damped - free).dot(&middle);
         sums.boundary += taken;
         if !constraints.is_empty() {

@@ -2,8 +2,10 @@
 //!
 //! A case is one file with its scenario beside it, and one line in [`CASES`].
 
-mod bar1d;
+mod compare;
+mod history;
 mod report;
+mod swing;
 
 pub use report::{Check, Report};
 
@@ -23,8 +25,31 @@ pub struct Case {
     pub run: fn(&mut Report) -> Result<(), CaseError>,
 }
 
-/// Every case, in the order in which a reader should meet them.
-pub const CASES: &[Case] = &[bar1d::CASE];
+macro_rules! cases {
+    ($($case:ident),* $(,)?) => {
+        $(mod $case;)*
+
+        /// Every case, in the order in which a reader should meet them.
+        pub const CASES: &[Case] = &[$($case::CASE),*];
+    };
+}
+
+cases! {
+    point1d,
+    bar1d,
+    free_fall,
+    wave,
+    impact,
+    column,
+    large_bar,
+    manufactured,
+    uniaxial,
+    shear_box,
+    discs,
+    rotation,
+    axisymmetric,
+    cantilever,
+}
 
 /// Why a case could not be finished.
 #[derive(Debug)]

@@ -1,0 +1,286 @@
+//! From a scenario to bodies, loads and observers.
+
+use super::method::method;
+use crate::input::Variables;
+use crate::material::Plane;
+use crate::math::{Vector, packed_len};
+use crate::observe::{BodyTable, EnergyTable, Observer, ProbeTable, ReactionTable};
+use crate::scenario::{
+    GridSpec, LoadKind, LoadSpec, PointSet, ProbeTarget, Region, Scenario, body_points,
+};
+use crate::solver::{Load, LoadForce, Mpm, Setup, Solver};
+use crate::state::{Body, Particles, State};
+
+/// Points below which threads cost more than they bring.
+pub const PARALLEL_FROM: usize = 8_000;
+
+/// Something to be done with a built scene, whose dimension is not known before the run.
+pub trait SceneVisitor {
+    /// What comes out.
+    type Output;
+    /// Does it.
+    fn visit<const D: usize>(self, scene: Scene<D>) -> Self::Output;
+}
+
+/// A scene, ready to go.
+pub struct Scene<const D: usize> {
+    /// Bodies at time 0.
+    pub state: State<D>,
+    /// The method.
+    pub solver: Box<dyn Solver<D>>,
+    /// What the scenario asks to be recorded.
+    pub observers: Vec<Box<dyn Observer<D>>>,
+}
+
+/// How a scene is computed, where that makes no difference to what is computed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Computing {
+    /// Whether steps may use several threads; if not given, where that pays.
+    pub parallel: Option<bool>,
+    /// Plain arithmetic even where the processor offers more.
+    pub portable: bool,
+}
+
+/// Builds the scene of a scenario and hands it to the visitor.
+pub fn with_scene<V: SceneVisitor>(scenario: &Scenario, visitor: V) -> V::Output {
+    match scenario.dimension {
+        1 => visitor.visit(build::<1>(scenario)),
+        2 => visitor.visit(build::<2>(scenario)),
+        _ => visitor.visit(build::<3>(scenario)),
+    }
+}
+
+/// Builds the scene of a scenario whose dimension is known to be `D`.
+pub fn build<const D: usize>(scenario: &Scenario) -> Scene<D> {
+    build_with(scenario, &Computing::default())
+}
+
+/// Builds the scene of a scenario, to be computed in a certain way.
+pub fn build_with<const D: usize>(scenario: &Scenario, computing: &Computing) -> Scene<D> {
+    let sets: Vec<PointSet> = (0..scenario.bodies.len())
+        .map(|b| body_points(scenario, b))
+        .collect();
+    let bodies = (0..scenario.bodies.len())
+        .map(|b| build_body(scenario, b, &sets[b]))
+        .collect();
+    let state = State {
+        time: 0.0,
+        step: 0,
+        bodies,
+    };
+    let observers = observers(scenario, &state, &sets);
+    let pays = || state.point_count() >= PARALLEL_FROM && rayon::current_num_threads() > 1;
+    let solver = build_solver(
+        scenario,
+        &state,
+        &sets,
+        computing.parallel.unwrap_or_else(pays),
+    );
+    let solver = Box::new(if computing.portable {
+        solver.portable()
+    } else {
+        solver
+    });
+    Scene {
+        state,
+        solver,
+        observers,
+    }
+}
+
+fn build_body<const D: usize>(scenario: &Scenario, index: usize, set: &PointSet) -> Body<D> {
+    let spec = &scenario.bodies[index];
+    let material = &scenario.materials[spec.material];
+    let count = set.positions.len();
+    let volume: Vec<f64> = (0..count).map(|p| set.volume(p)).collect();
+    let axisymmetric = scenario.plane == Plane::Axisymmetric;
+    let affine = scenario.method.transfer.is_affine();
+    let velocity = set.positions.iter().map(|&position| {
+        let at = Variables {
+            position,
+            time: 0.0,
+        };
+        Vector::from_fn(|a, _| spec.velocity[a].value(&at))
+    });
+    Body {
+        name: spec.name.clone(),
+        particles: Particles {
+            velocity: velocity.collect(),
+            position: set
+                .positions
+                .iter()
+                .map(|x| Vector::from_fn(|a, _| x[a]))
+                .collect(),
+            mass: volume
+                .iter()
+                .map(|volume| material.density * volume)
+                .collect(),
+            initial_volume: volume,
+            stress: vec![0.0; count * packed_len(D)],
+            affine: if affine {
+                vec![nalgebra::zero(); count]
+            } else {
+                Vec::new()
+            },
+            hoop_stress: if axisymmetric {
+                vec![0.0; count]
+            } else {
+                Vec::new()
+            },
+            hoop_stretch: if axisymmetric {
+                vec![1.0; count]
+            } else {
+                Vec::new()
+            },
+            id: (0..count as u32).collect(),
+        },
+        material: material.law.points(scenario.plane, count),
+        spacing: Vector::from_fn(|a, _| set.spacing[a]),
+        density: material.density,
+    }
+}
+
+fn observers<const D: usize>(
+    scenario: &Scenario,
+    state: &State<D>,
+    sets: &[PointSet],
+) -> Vec<Box<dyn Observer<D>>> {
+    let mut observers: Vec<Box<dyn Observer<D>>> = vec![Box::new(EnergyTable {
+        loads: !scenario.loads.is_empty(),
+        boundaries: !scenario.boundaries.is_empty(),
+        damping: scenario.damping > 0.0,
+    })];
+    for (body, spec) in scenario.bodies.iter().enumerate() {
+        observers.push(Box::new(BodyTable {
+            body,
+            name: spec.name.clone(),
+        }));
+    }
+    for probe in &scenario.probes {
+        let particle = match &probe.target {
+            ProbeTarget::Particle(number) => *number,
+            ProbeTarget::Near(place) => sets[probe.body].nearest(place).unwrap_or(0),
+        };
+        observers.push(Box::new(ProbeTable {
+            body: probe.body,
+            particle: particle as u32,
+            name: probe.name.clone(),
+            memory: state.bodies[probe.body].material.memory_names(),
+            axisymmetric: scenario.plane == Plane::Axisymmetric,
+        }));
+    }
+    for (boundary, spec) in scenario.boundaries.iter().enumerate() {
+        observers.push(Box::new(ReactionTable {
+            boundary,
+            name: spec.name.clone(),
+        }));
+    }
+    observers
+}
+
+fn build_solver<const D: usize>(
+    scenario: &Scenario,
+    state: &State<D>,
+    sets: &[PointSet],
+    parallel: bool,
+) -> Mpm<D> {
+    let method = method(scenario, state);
+    Mpm::new(Setup {
+        geometry: method.geometry,
+        kernels: method.kernels,
+        scheme: scenario.method.update,
+        gravity: Vector::from_fn(|a, _| scenario.gravity[a]),
+        damping: scenario.damping,
+        boundaries: scenario
+            .boundaries
+            .iter()
+            .map(|spec| spec.condition.build())
+            .collect(),
+        boundary_boxes: scenario
+            .boundaries
+            .iter()
+            .map(|spec| region(&spec.on, &scenario.grid))
+            .collect(),
+        loads: scenario
+            .loads
+            .iter()
+            .map(|spec| load(spec, state, sets))
+            .collect(),
+        parallel,
+    })
+}
+
+/// The box of positions of a region of nodes.
+fn region<const D: usize>(on: &Region, grid: &GridSpec) -> (Vector<D>, Vector<D>) {
+    match on {
+        Region::Box { min, max } => (
+            Vector::from_fn(|a, _| min[a]),
+            Vector::from_fn(|a, _| max[a]),
+        ),
+        Region::Side(side) => {
+            // ghost nodes outside the side belong to it
+            let mut min = Vector::repeat(f64::NEG_INFINITY);
+            let mut max = Vector::repeat(f64::INFINITY);
+            if side.upper {
+                min[side.axis] = grid.max[side.axis];
+            } else {
+                max[side.axis] = grid.min[side.axis];
+            }
+            (min, max)
+        }
+    }
+}
+
+fn load<const D: usize>(spec: &LoadSpec, state: &State<D>, sets: &[PointSet]) -> Load<D> {
+    let set = &sets[spec.body];
+    let chosen = set.selected(&spec.on);
+    let particles = &state.bodies[spec.body].particles;
+    let factor = spec.factor.clone();
+    let factor = Box::new(move |time| match &factor {
+        Some(factor) => factor.value(&Variables {
+            position: [0.0; 3],
+            time,
+        }),
+        None => 1.0,
+    });
+    let forces = |force: &dyn Fn(usize) -> Vector<D>| chosen.iter().map(|&p| force(p)).collect();
+    let points = chosen.iter().map(|&p| p as u32).collect();
+    let forces: Vec<Vector<D>> = match &spec.kind {
+        LoadKind::Acceleration(field) => {
+            let field = field.clone();
+            let field = move |position: &Vector<D>, time: f64| {
+                let mut at = Variables {
+                    position: [0.0; 3],
+                    time,
+                };
+                at.position[..D].copy_from_slice(position.as_slice());
+                Vector::from_fn(|a, _| field[a].value(&at)) * factor(time)
+            };
+            let origins = chosen.iter().map(|&p| particles.position[p]).collect();
+            let force = LoadForce::Acceleration(origins, Box::new(field));
+            return Load {
+                body: spec.body,
+                points,
+                force,
+            };
+        }
+        LoadKind::Force(total) => {
+            let mass: f64 = chosen.iter().map(|&p| particles.mass[p]).sum();
+            forces(&|p| Vector::from_fn(|a, _| total[a] * particles.mass[p] / mass))
+        }
+        LoadKind::Traction { traction, side } => {
+            forces(&|p| Vector::from_fn(|a, _| traction[a] * set.side_area(p, *side)))
+        }
+        LoadKind::Pressure { pressure, side } => forces(&|p| {
+            let inward = if side.upper { -1.0 } else { 1.0 };
+            let mut force = Vector::zeros();
+            force[side.axis] = inward * pressure * set.side_area(p, *side);
+            force
+        }),
+    };
+    Load {
+        body: spec.body,
+        points,
+        force: LoadForce::Forces(forces, factor),
+    }
+}
