@@ -1,11 +1,16 @@
 //! The command line: what can be asked, and what the program says and returns.
 
 mod check;
+mod folder;
+mod out;
 mod pictures;
+mod plan;
+mod reach;
 mod run;
 mod validate;
 
 use clap::{Args, Parser, Subcommand};
+use out::fail;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -26,14 +31,15 @@ pub mod code {
 const EXAMPLES: &str = "\
 Examples:
   mpm check scenarios/bar1d.toml              what would be simulated, at what cost
-  mpm run scenarios/bar1d.toml                run it; tables go to runs/bar1d/
+  mpm run scenarios/bar1d.toml                run it; tables and pictures go to runs/bar1d/
   mpm run scenarios/bar1d.toml --set time.courant=0.3 --output runs/coarse
   mpm validate                                every case with a known answer
-  mpm validate bar1d shear_box                some of them
+  mpm validate bar1d                          one of them
 
-Exit codes: 0 done, 1 a validation failed, 2 the input is wrong, 3 the run went wrong, 74 a file or the system failed.";
+Exit codes: 0 done, 1 a validation failed, 2 the input is wrong, 3 the run went wrong, 74 a file or the system failed.
+Results go to standard output, messages to standard error. docs/scenario.md explains every key of a scenario.";
 
-/// Simulates how solids deform, touch and break with the Material Point Method: a TOML scenario goes in, CSV tables come out.
+/// Simulates how solids deform with the Material Point Method: a TOML scenario goes in, CSV tables and pictures come out.
 #[derive(Parser)]
 #[command(name = "mpm", version, after_help = EXAMPLES, arg_required_else_help = true)]
 struct Arguments {
@@ -43,11 +49,14 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run a scenario and write its tables
+    /// Run a scenario and write its tables and pictures
+    #[command(after_help = run::EXAMPLES)]
     Run(run::RunArguments),
     /// Say everything that is wrong with a scenario, or what running it would mean
+    #[command(after_help = check::EXAMPLES)]
     Check(check::CheckArguments),
     /// Compare runs with known answers
+    #[command(after_help = validate::EXAMPLES)]
     Validate(validate::ValidateArguments),
 }
 
@@ -56,7 +65,7 @@ enum Command {
 struct ScenarioArguments {
     /// The scenario file (TOML)
     scenario: PathBuf,
-    /// Change a key before the run, such as time.courant=0.3 or body[0].velocity=["1 m/s"]
+    /// Change a key first, such as time.courant=0.3 or 'body[0].velocity=["1 m/s"]'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
 }
@@ -75,43 +84,68 @@ impl ThreadArguments {
         let threads = self.threads.map_or(0, usize::from);
         match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
             Ok(pool) => Ok(pool.install(work)),
-            Err(error) => Err(fail(
-                code::SYSTEM,
-                &format!("cannot start {threads} threads: {error}"),
-            )),
+            Err(error) => {
+                let message = format!("cannot start {threads} threads: {error}");
+                Err(fail(code::SYSTEM, &message))
+            }
         }
     }
 }
 
 /// Runs the program.
 pub fn main() -> ExitCode {
-    match Arguments::parse().command {
+    let done = match Arguments::parse().command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Validate(arguments) => validate::validate(&arguments),
+    };
+    match done {
+        Ok(code) | Err(code) => code,
     }
 }
 
-/// Prints an error and gives the exit code.
-fn fail(code: u8, message: &str) -> ExitCode {
-    eprintln!("error: {message}");
-    ExitCode::from(code)
+/// One entry of what is wrong with a scenario, as JSON.
+#[derive(serde::Serialize)]
+struct WrongEntry<'a> {
+    line: Option<usize>,
+    key: &'a str,
+    message: &'a str,
 }
 
-/// Reads a scenario, or says everything that is wrong with it.
-fn load(arguments: &ScenarioArguments) -> Result<crate::scenario::Loaded, ExitCode> {
-    match crate::scenario::load(&arguments.scenario, &arguments.set) {
-        Ok(loaded) => {
-            for warning in &loaded.warnings {
-                eprintln!("warning: {warning}");
+impl<'a> From<&'a crate::input::Problem> for WrongEntry<'a> {
+    fn from(problem: &'a crate::input::Problem) -> Self {
+        Self {
+            line: problem.line,
+            key: &problem.key,
+            message: &problem.message,
+        }
+    }
+}
+
+/// What is wrong with a scenario, as JSON.
+#[derive(serde::Serialize)]
+struct Wrong<'a> {
+    status: &'static str,
+    problems: Vec<WrongEntry<'a>>,
+}
+
+/// Reads a scenario, or says everything that is wrong with it: to people, and with `json` to programs as well.
+fn load(arguments: &ScenarioArguments, json: bool) -> Result<crate::scenario::Loaded, ExitCode> {
+    crate::scenario::load(&arguments.scenario, &arguments.set).map_err(|error| {
+        // begins with "error: " and ends with a newline
+        out::message(&error.to_string());
+        if json {
+            let problems = error.problems.iter().map(WrongEntry::from).collect();
+            let wrong = Wrong {
+                status: "the scenario is wrong",
+                problems,
+            };
+            if let Err(code) = out::json(&wrong) {
+                return code;
             }
-            Ok(loaded)
         }
-        Err(error) => {
-            eprintln!("{error}");
-            Err(ExitCode::from(code::INPUT))
-        }
-    }
+        ExitCode::from(code::INPUT)
+    })
 }
 
 /// The name of a scenario: its file name without the ending.

@@ -1,6 +1,6 @@
 //! `mpm validate`.
 
-use super::{ThreadArguments, code, fail};
+use super::{ThreadArguments, code, fail, out};
 use crate::report::{Align, Cell, Size, Table, panels};
 use crate::study::validate::{CASES, Case, CaseError, Check, Report};
 use clap::Args;
@@ -8,6 +8,14 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  mpm validate                          every case
+  mpm validate --list                   what they claim, and where the answers come from
+  mpm validate bar1d --output compared  tables and pictures of computed against exact
+
+Exit code 0 only if every case passes, 1 if one fails.";
 
 /// Options of `mpm validate`.
 #[derive(Args)]
@@ -38,21 +46,21 @@ struct Outcome {
     checks: Vec<Check>,
 }
 
-/// Runs cases with known answers.
-pub fn validate(arguments: &ValidateArguments) -> ExitCode {
-    match try_validate(arguments) {
-        Ok(code) | Err(code) => code,
-    }
+#[derive(Serialize)]
+struct Results<'a> {
+    passed: bool,
+    cases: &'a [Outcome],
 }
 
-fn try_validate(arguments: &ValidateArguments) -> Result<ExitCode, ExitCode> {
+/// Runs cases with known answers.
+pub fn validate(arguments: &ValidateArguments) -> Result<ExitCode, ExitCode> {
     let cases = choose(&arguments.cases)?;
     if arguments.list {
         let mut table = Table::new(["case", "claim", "reference"]);
         for case in cases {
             table.push([case.name, case.claim, case.reference]);
         }
-        print!("{table}");
+        out::result(&table.to_string())?;
         return Ok(ExitCode::SUCCESS);
     }
     let mut outcomes = Vec::new();
@@ -80,21 +88,20 @@ fn try_validate(arguments: &ValidateArguments) -> Result<ExitCode, ExitCode> {
             checks: report.checks,
         };
         if !arguments.json {
-            print_outcome(&outcome);
+            out::result(&describe(&outcome))?;
         }
         outcomes.push(outcome);
     }
     let failed = outcomes.iter().filter(|outcome| !outcome.passed).count();
     if arguments.json {
-        let json = serde_json::to_string_pretty(&outcomes)
-            .map_err(|error| fail(code::SYSTEM, &format!("cannot print the results: {error}")))?;
-        println!("{json}");
+        let passed = failed == 0;
+        out::json(&Results {
+            passed,
+            cases: &outcomes,
+        })?;
     } else {
-        println!(
-            "{} of {} cases passed",
-            outcomes.len() - failed,
-            outcomes.len()
-        );
+        let passed = outcomes.len() - failed;
+        out::result(&format!("{passed} of {} cases passed\n", outcomes.len()))?;
     }
     Ok(ExitCode::from(if failed == 0 {
         code::DONE
@@ -124,12 +131,11 @@ fn choose(names: &[String]) -> Result<Vec<&'static Case>, ExitCode> {
     Ok(chosen)
 }
 
-fn print_outcome(outcome: &Outcome) {
-    println!(
-        "{}: {} ({:.1} s)",
-        outcome.case, outcome.claim, outcome.seconds
+fn describe(outcome: &Outcome) -> String {
+    let mut text = format!(
+        "{}: {} ({:.1} s)\n  reference: {}\n",
+        outcome.case, outcome.claim, outcome.seconds, outcome.reference
     );
-    println!("  reference: {}", outcome.reference);
     let mut table = Table::new(["  ", "measured", "limit", ""])
         .align(1, Align::Right)
         .align(2, Align::Left)
@@ -142,11 +148,11 @@ fn print_outcome(outcome: &Outcome) {
             Cell::verdict(check.passed),
         ]);
     }
-    print!("{table}");
+    text += &table.to_string();
     if let Some(error) = &outcome.error {
-        println!("  FAIL: {error}");
+        text += &format!("  FAIL: {error}\n");
     }
-    println!();
+    text + "\n"
 }
 
 fn limit(check: &Check) -> String {

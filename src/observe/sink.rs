@@ -59,10 +59,22 @@ pub struct Frame {
 }
 
 /// CSV files in a folder, with every digit that a number needs to be read back exactly.
+///
+/// If asked, it also keeps all points at up to three recorded times, for pictures.
 pub struct CsvSink {
     folder: PathBuf,
     files: BTreeMap<String, csv::Writer<File>>,
+    /// Time of the last row, s.
+    time: f64,
+    /// Times at which points are to be kept, s, ascending.
+    wanted: Vec<f64>,
+    frames: Vec<Frame>,
 }
+
+/// Scenes with more points than this get no picture of them: the copy would need as much memory as the run.
+const MOST_POINTS: usize = 500_000;
+/// Points that a picture shows at most.
+const MOST_SHOWN: usize = 100_000;
 
 impl CsvSink {
     /// Files in `folder`, which exists.
@@ -70,7 +82,22 @@ impl CsvSink {
         Self {
             folder: folder.to_path_buf(),
             files: BTreeMap::new(),
+            time: 0.0,
+            wanted: Vec::new(),
+            frames: Vec::new(),
         }
+    }
+
+    /// Keeps the points (of very many, some) at the start, in the middle and at the `end`, s, of a run of so many points.
+    pub fn keep_frames(&mut self, end: f64, points: usize) {
+        if points <= MOST_POINTS {
+            self.wanted = vec![0.0, 0.5 * end, end];
+        }
+    }
+
+    /// The points that were kept.
+    pub fn frames(&self) -> &[Frame] {
+        &self.frames
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -101,9 +128,25 @@ impl Sink for CsvSink {
         let Some(writer) = self.files.get_mut(name) else {
             return Err(self.explain(name, "the table was never opened"));
         };
+        self.time = row.first().copied().unwrap_or(self.time);
         // `{:?}` of f64 is the shortest text that reads back as the same number
         let result = writer.write_record(row.iter().map(|x| format!("{x:?}")));
         result.map_err(|error| self.explain(name, error))
+    }
+
+    fn wants_frames(&self) -> bool {
+        let next = self.wanted.get(self.frames.len());
+        next.is_some_and(|next| self.time >= next * (1.0 - 1e-9))
+    }
+
+    fn frame(&mut self, frame: Frame) -> io::Result<()> {
+        let stride = frame.points.len().div_ceil(MOST_SHOWN).max(1);
+        let points = frame.points.into_iter().step_by(stride).collect();
+        self.frames.push(Frame {
+            time: frame.time,
+            points,
+        });
+        Ok(())
     }
 
     fn flush(&mut self) -> io::Result<()> {

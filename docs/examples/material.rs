@@ -1,0 +1,51 @@
+//! Neo-Hookean solid whose pressure grows with J rather than with ln J: stiffer when it is blown up.
+
+use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
+use crate::input::{Parameters, Reader};
+use crate::math::{Matrix, largest_eigenvalue_bound};
+
+/// W = μ/2 (tr b − 3) − μ ln J + λ/2 (J − 1)² and so τ = μ (b − I) + λ J (J − 1) I.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inflatable {
+    /// Elastic constants at small strain.
+    pub elasticity: Isotropic,
+}
+
+impl Parameters for Inflatable {
+    fn read(reader: &mut Reader<'_>) -> Option<Self> {
+        Isotropic::read(reader).map(|elasticity| Self { elasticity })
+    }
+}
+
+impl Hyperelastic for Inflatable {
+    fn elasticity(&self) -> Isotropic {
+        self.elasticity
+    }
+
+    fn stress<const D: usize>(&self, deformation: &Deformation<D>) -> Stress<D> {
+        let (lambda, mu) = self.elasticity.lame();
+        let change = deformation.volume_change(); // J − 1
+        let pressure = lambda * (1.0 + change) * change;
+        Stress {
+            plane: deformation.finger_less_one() * mu + Matrix::identity() * pressure,
+            transverse: mu * deformation.transverse_finger_less_one() + pressure,
+        }
+    }
+
+    fn energy<const D: usize>(&self, deformation: &Deformation<D>) -> f64 {
+        let (lambda, mu) = self.elasticity.lame();
+        let change = deformation.volume_change();
+        let sides = Deformation::<D>::TRANSVERSE * deformation.transverse_finger_less_one();
+        let trace = deformation.finger_less_one().trace() + sides; // tr b − 3
+        0.5 * mu * trace - mu * change.ln_1p() + 0.5 * lambda * change * change
+    }
+
+    /// δτ = μ (L b + b Lᵀ) + λ (2J² − J) tr L I with L = m ⊗ n, less τ Lᵀ, gives
+    /// Q = μ (n·b n) I + (μ + λ J²) n ⊗ n. Free transverse directions make it softer, so the bound holds for them too.
+    fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, _: Plane) -> f64 {
+        let (lambda, mu) = self.elasticity.lame();
+        let ratio = 1.0 + deformation.volume_change();
+        let largest = 1.0 + largest_eigenvalue_bound(&deformation.finger_less_one());
+        mu * largest + mu + lambda * ratio * ratio
+    }
+}
