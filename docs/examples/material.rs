@@ -2,7 +2,7 @@
 
 use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
 use crate::input::{Parameters, Reader};
-use crate::math::{Matrix, largest_eigenvalue_bound};
+use crate::math::{Matrix, largest_eigenvalue};
 
 /// W = μ/2 (tr b − 3) − μ ln J + λ/2 (J − 1)² and so τ = μ (b − I) + λ J (J − 1) I.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl Hyperelastic for Inflatable {
     fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, _: Plane) -> f64 {
         let (lambda, mu) = self.elasticity.lame();
         let ratio = 1.0 + deformation.volume_change();
-        let largest = 1.0 + largest_eigenvalue_bound(&deformation.finger_less_one());
+        let largest = 1.0 + largest_eigenvalue(&deformation.finger_less_one());
         mu * largest + mu + lambda * ratio * ratio
     }
 }

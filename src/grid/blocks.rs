@@ -26,6 +26,9 @@ impl<const D: usize> Block<D> {
     }
 }
 
+/// Coordinates of an occupied block, counted in blocks, and the first and one past the last row of the points in it.
+pub type Occupied<const D: usize> = ([i32; D], (u32, u32));
+
 /// Consecutive stored nodes along the last axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<const D: usize> {
@@ -62,12 +65,7 @@ pub struct Blocks<const D: usize> {
 impl<const D: usize> Blocks<D> {
     /// Lays out storage for the blocks that the bodies occupy; `occupied` gives for each body its sorted distinct block
     /// coordinates with the range of points in each.
-    pub fn rebuild(
-        &mut self,
-        edge: i32,
-        counts: &[i32; D],
-        occupied: &[Vec<([i32; D], (u32, u32))>],
-    ) {
+    pub fn rebuild(&mut self, edge: i32, counts: &[i32; D], occupied: &[Vec<Occupied<D>>]) {
         self.activate(occupied);
         self.assign_storage(edge, counts);
         self.bodies.resize_with(occupied.len(), BodyBlocks::default);
@@ -89,7 +87,7 @@ impl<const D: usize> Blocks<D> {
         }
     }
 
-    fn activate(&mut self, occupied: &[Vec<([i32; D], (u32, u32))>]) {
+    fn activate(&mut self, occupied: &[Vec<Occupied<D>>]) {
         self.wanted.clear();
         for &(block, _) in occupied.iter().flatten() {
             for neighbour in 0..3_i32.pow(D as u32) {

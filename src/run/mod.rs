@@ -117,8 +117,7 @@ fn advance<const D: usize>(
         let planned = planned(scenario, records + 1);
         let limit = solver.limit(state);
         let (dt, after) = time_step.next(state.time, planned, &limit);
-        // also true if dt is not a number
-        if !(dt > 1e-15 * scenario.end) {
+        if dt.is_nan() || dt <= 1e-15 * scenario.end {
             return Err(Fault::Collapsed {
                 time: state.time,
                 step: state.step,

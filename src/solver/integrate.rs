@@ -119,6 +119,7 @@ impl<const D: usize> GridStep<'_, D> {
     }
 
     /// Turns momenta in `nodes` into velocities that satisfy all conditions at `time`, and leaves everything else alone.
+    #[allow(clippy::too_many_arguments)] // half of what a step has
     pub fn velocities(
         nodes: &mut [Node],
         rows: &[Row<D>],

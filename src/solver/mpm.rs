@@ -9,7 +9,7 @@ use super::stencil::{Gathered, Sources};
 use super::{Fault, Limit, Solver};
 use crate::boundary::Condition;
 use crate::grid::{Blocks, Geometry, Node, block_edge};
-use crate::math::{Sum, Vector};
+use crate::math::{Sum, Vector, packed_len};
 use crate::scenario::Scheme;
 use crate::state::State;
 
@@ -186,8 +186,11 @@ impl<const D: usize> Mpm<D> {
     }
 
     /// How stiff and fast the points are.
-    fn survey(&mut self, state: &State<D>) {
-        self.wave_speed = state
+    ///
+    /// # Errors
+    /// If a point has no stress, because it was turned inside out.
+    fn survey(&mut self, state: &State<D>) -> Result<(), Fault> {
+        let wave_speed = state
             .bodies
             .iter()
             .map(|body| {
@@ -195,7 +198,29 @@ impl<const D: usize> Mpm<D> {
                 let stiffness = body.material.max_stiffness(0..p.len(), &p.present());
                 (stiffness / body.density).sqrt()
             })
-            .fold(0.0, f64::max);
+            .fold(0.0, |most: f64, speed| {
+                if speed > most || speed.is_nan() {
+                    speed
+                } else {
+                    most
+                }
+            });
+        if wave_speed.is_nan() {
+            let width = packed_len(D);
+            for body in &state.bodies {
+                let stresses = body.particles.stress.chunks_exact(width);
+                if let Some(row) = stresses
+                    .map(|s| s.iter().any(|x| x.is_nan()))
+                    .position(|nan| nan)
+                {
+                    return Err(Fault::NotFinite(
+                        self.place(state.time, state.step, body, row),
+                    ));
+                }
+            }
+        }
+        self.wave_speed = wave_speed;
+        Ok(())
     }
 }
 
@@ -209,8 +234,7 @@ impl<const D: usize> Solver<D> for Mpm<D> {
             .iter()
             .flat_map(|body| &body.particles.velocity)
             .fold(0.0, |most: f64, v| most.max(v.norm()));
-        self.survey(state);
-        Ok(())
+        self.survey(state)
     }
 
     fn step(&mut self, state: &mut State<D>, dt: f64) -> Result<(), Fault> {
@@ -251,7 +275,7 @@ impl<const D: usize> Solver<D> for Mpm<D> {
             self.sort(state)?;
         }
         if state.step.is_multiple_of(STIFFNESS_INTERVAL) {
-            self.survey(state);
+            self.survey(state)?;
         }
         Ok(())
     }

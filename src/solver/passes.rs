@@ -16,6 +16,13 @@ const POINTS_PER_TASK: usize = 1024;
 #[derive(Clone, Copy)]
 struct Target(*mut Node);
 
+impl Target {
+    // a method, so that closures borrow the whole and not the pointer in it
+    fn pointer(&self) -> *mut Node {
+        self.0
+    }
+}
+
 // SAFETY: blocks of one colour share no node (see `stencil`)
 unsafe impl Send for Target {}
 // SAFETY: as above
@@ -24,6 +31,13 @@ unsafe impl Sync for Target {}
 /// The grid's arrays for reading.
 #[derive(Clone, Copy)]
 struct Readable(Sources);
+
+impl Readable {
+    // as above
+    fn sources(&self) -> &Sources {
+        &self.0
+    }
+}
 
 // SAFETY: nobody writes to the grid while points gather from it
 unsafe impl Send for Readable {}
@@ -157,7 +171,6 @@ impl<const D: usize> Mpm<D> {
             let points_each = body.particles.len() / own.blocks.len().max(1);
             for colour in &own.colours {
                 for_each(colour.len(), points_each, self.parallel, |i| {
-                    let (main, force) = (main, force);
                     let block = &own.blocks[colour[i] as usize];
                     // SAFETY: blocks of one colour share no node and no row; the tile of a block is stored
                     unsafe {
@@ -166,7 +179,7 @@ impl<const D: usize> Mpm<D> {
                             &columns,
                             block,
                             what,
-                            [{ main }.0, { force }.0],
+                            [main.pointer(), force.pointer()],
                         )
                     };
                 });
@@ -191,7 +204,6 @@ impl<const D: usize> Mpm<D> {
             let own = &self.blocks.bodies[index];
             for colour in &own.colours {
                 for_each(colour.len(), POINTS_PER_TASK / 4, self.parallel, |i| {
-                    let external = external;
                     let block = &own.blocks[colour[i] as usize];
                     let forces = loads.in_rows(load, block.points());
                     if !forces.is_empty() {
@@ -201,7 +213,7 @@ impl<const D: usize> Mpm<D> {
                                 &context,
                                 &columns,
                                 block,
-                                { external }.0,
+                                external.pointer(),
                                 forces,
                             )
                         };
@@ -312,7 +324,6 @@ impl<const D: usize> Mpm<D> {
             results.clear();
             results.resize(blocks.len(), Gathered::NONE);
             let work = |block: &Block<D>| {
-                let from = from;
                 self.gather_block(
                     &context,
                     &columns,
@@ -320,7 +331,7 @@ impl<const D: usize> Mpm<D> {
                     &shift,
                     material,
                     what,
-                    &{ from }.0,
+                    from.sources(),
                 )
             };
             if self.parallel && blocks.len() > 1 {

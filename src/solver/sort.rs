@@ -4,7 +4,7 @@ use super::integrate::Constraint;
 use super::kernels::Kernels;
 use super::mpm::Mpm;
 use super::{Fault, Place};
-use crate::grid::{Geometry, Row};
+use crate::grid::{Geometry, Occupied, Row};
 use crate::math::Vector;
 use crate::reorder;
 use crate::state::{Body, State};
@@ -20,7 +20,7 @@ pub struct Scratch<const D: usize> {
     starts: Vec<u32>,
     keys: Vec<[i32; D]>,
     /// For each body, its blocks and the rows in each.
-    occupied: Vec<Vec<([i32; D], (u32, u32))>>,
+    occupied: Vec<Vec<Occupied<D>>>,
 }
 
 impl<const D: usize> Mpm<D> {
@@ -173,10 +173,10 @@ impl<const D: usize> Mpm<D> {
     }
 
     /// Describes the point in `row`.
-    pub(super) fn fault(&self, time: f64, step: u64, body: &Body<D>, row: usize) -> Fault {
+    pub(super) fn place(&self, time: f64, step: u64, body: &Body<D>, row: usize) -> Place {
         let position = body.particles.position[row];
         let velocity = body.particles.velocity[row];
-        let place = Place {
+        Place {
             time,
             step,
             body: body.name.clone(),
@@ -184,10 +184,16 @@ impl<const D: usize> Mpm<D> {
             position: position.iter().copied().collect(),
             velocity: velocity.iter().copied().collect(),
             courant: self.last_dt * self.wave_speed / self.geometry.cell_size,
-        };
-        if position
+        }
+    }
+
+    /// What is wrong with the point in `row`.
+    fn fault(&self, time: f64, step: u64, body: &Body<D>, row: usize) -> Fault {
+        let place = self.place(time, step, body, row);
+        if place
+            .position
             .iter()
-            .chain(velocity.iter())
+            .chain(&place.velocity)
             .all(|x| x.is_finite())
         {
             Fault::Escaped(place)

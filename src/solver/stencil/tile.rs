@@ -1,0 +1,105 @@
+//! Which nodes the points of a block may reach, and where those nodes are stored.
+
+use crate::grid::Block;
+
+/// The most rows that a tile has: 13 × 13, for blocks of 8 and stencils of 4 in 3D.
+const MAX_ROWS: usize = 169;
+
+/// Storage of the nodes that the points of one block may reach: all rows of an `edge + N + 1` cube, one node below the block
+/// to `N` nodes above it.
+pub struct Tile<const D: usize> {
+    pub(super) rows: [usize; MAX_ROWS],
+    pub(super) width: usize,
+    /// The last place at which a stencil may start, along every axis.
+    last: u32,
+    /// N, in a form that keeps the compiler from unrolling all N³ nodes of a 3D stencil, which takes it long and wins nothing.
+    pub(super) n: usize,
+    origin: [i32; D],
+}
+
+impl<const D: usize> Tile<D> {
+    /// The tile of a block of `edge` nodes for stencils of `n` nodes.
+    #[inline(always)]
+    pub fn new(block: &Block<D>, edge: i32, n: usize) -> Self {
+        let width = edge as usize + n + 1;
+        let edge = edge as usize;
+        let mut rows = [0; MAX_ROWS];
+        // (which of the three neighbouring blocks, row within it) of row t of the tile
+        let place = |t: usize| match t {
+            0 => (0, edge - 1),
+            t if t <= edge => (1, t - 1),
+            t => (2, t - 1 - edge),
+        };
+        match D {
+            1 => rows[0] = block.anchors[0].0 as usize - 1,
+            2 => {
+                for t in 0..width {
+                    let (column, i) = place(t);
+                    let (base, stride) = block.anchors[column];
+                    rows[t] = base as usize + i * stride as usize - 1;
+                }
+            }
+            _ => {
+                for t in 0..width {
+                    let (column, i) = place(t);
+                    for u in 0..width {
+                        let (next, j) = place(u);
+                        let (base, stride) = block.anchors[3 * column + next];
+                        rows[t * width + u] = base as usize + (i * edge + j) * stride as usize - 1;
+                    }
+                }
+            }
+        }
+        Self {
+            rows,
+            width,
+            last: edge as u32 + 1,
+            n: std::hint::black_box(n),
+            origin: block.origin,
+        }
+    }
+
+    /// Where a stencil that starts at node `first` lies in the tile.
+    #[inline(always)]
+    pub(super) fn local(&self, first: [i32; D]) -> [usize; D] {
+        let mut t = [0; D];
+        for a in 0..D {
+            // below the tile is far above it in unsigned numbers
+            let local = first[a].wrapping_sub(self.origin[a]).wrapping_add(1) as u32;
+            t[a] = local.min(self.last) as usize;
+        }
+        t
+    }
+}
+
+/// The part of the grid, in cells, in which a point may be as long as it is counted to a block.
+#[derive(Clone, Copy, Debug)]
+pub struct Reach<const D: usize> {
+    low: [f64; D],
+    high: [f64; D],
+}
+
+impl<const D: usize> Reach<D> {
+    /// One node more than the block on either side, within the grid; `shift` is where stencils start relative to their point.
+    #[inline(always)]
+    pub fn new(origin: [i32; D], edge: i32, cells: [i32; D], shift: [f64; D]) -> Self {
+        // a hair inside, so that rounding cannot put a stencil's start beyond the tile
+        let hair = 1e-9
+            + cells
+                .iter()
+                .fold(0.0, |most: f64, &n| most.max(f64::from(n)))
+                * 1e-15;
+        Self {
+            low: std::array::from_fn(|a| (f64::from(origin[a] - 1) - shift[a] + hair).max(0.0)),
+            high: std::array::from_fn(|a| {
+                (f64::from(origin[a] + edge + 1) - shift[a] - hair).min(f64::from(cells[a]))
+            }),
+        }
+    }
+
+    /// Whether a position is inside; false if it is not a number.
+    #[inline(always)]
+    pub fn holds(&self, x: &[f64; D]) -> bool {
+        (0..D).all(|a| x[a] >= self.low[a] && x[a] <= self.high[a])
+    }
+}
