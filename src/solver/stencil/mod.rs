@@ -1,7 +1,7 @@
 //! The hot loops: from the points of one block to the grid nodes around them and back.
 //!
 //! Weights factorise axis by axis, so a stencil of N^D nodes costs a few operations a node. All loops are generic over
-//! [`Lane`], once with wide instructions and once without; `plain` beside this file says what they mean.
+//! [`Lane`](super::lane::Lane), once with wide instructions and once without; `plain` beside this file says what they mean.
 //!
 //! Everything `unsafe` here rests on three facts. A point's stencil starts at most one node outside its block (checked by
 //! [`gather`] whenever a point moves, and by the sort, which refuses points that are not finite or outside the grid); should
