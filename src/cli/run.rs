@@ -237,7 +237,10 @@ fn describe(summary: &Summary, folder: &Path) -> String {
             "work",
             format!(
                 "loads {:.6e}, boundaries {:.6e}, damping {:.6e}, lost by the method {:.6e} J",
-                energy.external_work, energy.boundary_work, -energy.damping, energy.numerical
+                energy.external_work,
+                energy.boundary_work,
+                0.0 - energy.damping,
+                energy.numerical
             ),
         ),
         (

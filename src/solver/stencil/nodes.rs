@@ -164,24 +164,13 @@ pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, cons
     for m in 0..M {
         slope[m] = splats::<L, N>(&g[m][D - 1]);
     }
-    // (value, slopes along the last axis) of N nodes in a row
-    let row = |at: usize| {
-        let (mut value, mut change) = (zero, [zero; M]);
-        for k in 0..N {
-            // SAFETY: the tile addresses stored nodes only (module header)
-            let node = unsafe { L::load(nodes.add(at + k).cast()) };
-            value = last[k].mul_add(node, value);
-            for m in 0..M {
-                change[m] = slope[m][k].mul_add(node, change[m]);
-            }
-        }
-        (value, change)
-    };
     let mut gradient = [[zero; D]; M];
     let mut sum = zero;
     match D {
         1 => {
-            let (value, change) = row(tile.rows[0] + t[0]);
+            // SAFETY: the tile addresses stored nodes only (module header)
+            let (value, change) =
+                unsafe { gather_row(nodes.add(tile.rows[0] + t[0]), &last, &slope) };
             sum = value;
             for m in 0..M {
                 gradient[m][0] = change[m];
@@ -189,7 +178,9 @@ pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, cons
         }
         2 => {
             for i in 0..N {
-                let (value, change) = row(tile.rows[t[0] + i] + t[1]);
+                // SAFETY: the tile addresses stored nodes only (module header)
+                let (value, change) =
+                    unsafe { gather_row(nodes.add(tile.rows[t[0] + i] + t[1]), &last, &slope) };
                 let wi = L::splat(w[0][i]);
                 sum = wi.mul_add(value, sum);
                 for m in 0..M {
@@ -203,7 +194,8 @@ pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, cons
                 let (mut value, mut dy, mut dz) = (zero, [zero; M], [zero; M]);
                 for j in 0..N {
                     let at = tile.rows[(t[0] + i) * tile.width + t[1] + j] + t[2];
-                    let (v, c) = row(at);
+                    // SAFETY: the tile addresses stored nodes only (module header)
+                    let (v, c) = unsafe { gather_row(nodes.add(at), &last, &slope) };
                     let wj = L::splat(w[1][j]);
                     value = wj.mul_add(v, value);
                     for m in 0..M {
@@ -230,6 +222,26 @@ pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, cons
         }
     }
     (sum, gradient)
+}
+
+/// Value and slopes along the last axis of N nodes in a row. A function and not a closure: closures are not always inlined,
+/// and outside the kernels that are compiled for them wide instructions become calls.
+#[inline(always)]
+unsafe fn gather_row<L: Lane, const N: usize, const M: usize>(
+    nodes: *const Node,
+    weight: &[L; N],
+    slope: &[[L; N]; M],
+) -> (L, [L; M]) {
+    let (mut value, mut change) = (L::splat(0.0), [L::splat(0.0); M]);
+    for k in 0..N {
+        // SAFETY: the caller vouches for N nodes
+        let node = unsafe { L::load(nodes.add(k).cast()) };
+        value = weight[k].mul_add(node, value);
+        for m in 0..M {
+            change[m] = slope[m][k].mul_add(node, change[m]);
+        }
+    }
+    (value, change)
 }
 
 /// Each number in all parts of a lane.
