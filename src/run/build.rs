@@ -245,6 +245,11 @@ fn load<const D: usize>(spec: &LoadSpec, state: &State<D>, sets: &[PointSet]) ->
     });
     let forces = |force: &dyn Fn(usize) -> Vector<D>| chosen.iter().map(|&p| force(p)).collect();
     let points = chosen.iter().map(|&p| p as u32).collect();
+    let side = match (&spec.kind, &spec.on) {
+        (LoadKind::Traction { side, .. } | LoadKind::Pressure { side, .. }, _) => Some(*side),
+        (_, Region::Side(side)) => Some(*side),
+        _ => None,
+    };
     let forces: Vec<Vector<D>> = match &spec.kind {
         LoadKind::Acceleration(field) => {
             let field = field.clone();
@@ -261,6 +266,7 @@ fn load<const D: usize>(spec: &LoadSpec, state: &State<D>, sets: &[PointSet]) ->
             return Load {
                 body: spec.body,
                 points,
+                offset: Vector::zeros(),
                 force,
             };
         }
@@ -281,6 +287,12 @@ fn load<const D: usize>(spec: &LoadSpec, state: &State<D>, sets: &[PointSet]) ->
     Load {
         body: spec.body,
         points,
+        offset: side.map_or(Vector::zeros(), |side| {
+            // the loaded face lies half a spacing outside the outermost points
+            let mut offset = Vector::zeros();
+            offset[side.axis] = if side.upper { 0.5 } else { -0.5 } * set.spacing[side.axis];
+            offset
+        }),
         force: LoadForce::Forces(forces, factor),
     }
 }

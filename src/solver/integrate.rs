@@ -249,24 +249,23 @@ impl<const D: usize> Shared<'_, D> {
         }
         let pull = internal.unwrap_or_else(Vector::zeros);
         let free = start + (self.gravity + (pull + external) / mass) * self.dt;
-        let damped = free * self.decay;
-        let mut end = damped;
-        let mut taken = 0.0; // work of all conditions, half of it known now, the other when the end velocity is
-        for constraint in constraints.iter_mut() {
-            let place = Place {
-                position: constraint.position,
-                time: self.time + self.dt,
+        let mut taken = 0.0;
+        let held = self.hold(mass, free, constraints);
+        // Damping acts on nodes as they are held, not on how their forces would have moved them; what still differs from a
+        // moving wall afterwards, the wall makes up for.
+        let damped = held * self.decay;
+        let end = if self.decay == 1.0 {
+            held
+        } else {
+            self.hold(mass, damped, constraints)
+        };
+        for constraint in constraints.iter() {
+            let wall = |time: f64| {
+                let position = constraint.position;
+                self.boundaries[constraint.boundary].wall_velocity(&Place { position, time })
             };
-            let condition = &self.boundaries[constraint.boundary];
-            let before = end;
-            end = condition.impose(&place, &end);
-            constraint.impulse += (end - before) * mass;
-            let wall = condition.wall_velocity(&place)
-                + condition.wall_velocity(&Place {
-                    time: self.time,
-                    ..place
-                });
-            taken += 0.5 * constraint.impulse.dot(&wall);
+            let mean = (wall(self.time) + wall(self.time + self.dt)) * 0.5;
+            taken += constraint.impulse.dot(&mean);
         }
         let middle = (start + end) * 0.5;
         sums.arrived += 0.5 * mass * arrived.norm_squared();
@@ -277,13 +276,32 @@ impl<const D: usize> Shared<'_, D> {
         let pushed = self.dt * external.dot(&end);
         sums.external += pushed;
         sums.absorbed += pushed - self.dt * external.dot(&middle);
-        sums.damping += mass * (damped - free).dot(&middle);
+        sums.damping += mass * (damped - held).dot(&middle);
         sums.boundary += taken;
         if !constraints.is_empty() {
-            let work = mass * (end - damped).dot(&middle);
+            let work = mass * ((held - free) + (end - damped)).dot(&middle);
             let lost = 0.5 * mass * (arrived.norm_squared() - start.norm_squared());
             sums.absorbed += lost - work + taken;
         }
         (end, end - start)
+    }
+    /// What all conditions of a node make of its velocity at the end of the step; their impulses are added up.
+    #[inline(always)]
+    fn hold(
+        &self,
+        mass: f64,
+        mut velocity: Vector<D>,
+        constraints: &mut [Constraint<D>],
+    ) -> Vector<D> {
+        for constraint in constraints.iter_mut() {
+            let place = Place {
+                position: constraint.position,
+                time: self.time + self.dt,
+            };
+            let before = velocity;
+            velocity = self.boundaries[constraint.boundary].impose(&place, &velocity);
+            constraint.impulse += (velocity - before) * mass;
+        }
+        velocity
     }
 }

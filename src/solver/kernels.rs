@@ -77,6 +77,7 @@ pub trait Kernels<const D: usize>: Send + Sync {
         columns: &Columns<D>,
         block: &Block<D>,
         nodes: *mut Node,
+        offset: &Vector<D>,
         forces: &[(u32, Vector<D>)],
     );
 
@@ -199,6 +200,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
         columns: &Columns<D>,
         block: &Block<D>,
         nodes: *mut Node,
+        offset: &Vector<D>,
         forces: &[(u32, Vector<D>)],
     ) {
         let pass = self.pass(context);
@@ -210,6 +212,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
                 block,
                 context.edge,
                 nodes,
+                offset,
                 forces,
             )
         }

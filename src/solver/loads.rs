@@ -23,6 +23,8 @@ pub struct Load<const D: usize> {
     pub body: usize,
     /// Numbers of its loaded points, ascending.
     pub points: Vec<u32>,
+    /// Where it acts, from the points, m: zero, or half a point's spacing towards the side that is loaded.
+    pub offset: Vector<D>,
     /// What acts on them.
     pub force: LoadForce<D>,
 }
@@ -65,6 +67,11 @@ impl<const D: usize> Loads<D> {
     /// The body of load `index`.
     pub fn body(&self, index: usize) -> usize {
         self.loads[index].body
+    }
+
+    /// Where load `index` acts, from its points, m.
+    pub fn offset(&self, index: usize) -> Vector<D> {
+        self.loads[index].offset
     }
 
     /// Looks up the rows of a body's loaded points; called whenever its points have been re-sorted.

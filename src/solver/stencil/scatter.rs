@@ -33,7 +33,7 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
     main: *mut Node,
     force: *mut Node,
 ) {
-    let tile = Tile::new(block, edge, N);
+    let tile = Tile::new(block, edge, N, 1);
     let width = packed_len(D);
     for p in block.points() {
         // SAFETY: row p belongs to this block alone (module header)
@@ -143,10 +143,11 @@ unsafe fn add_point<L: Lane, const D: usize, const N: usize>(
     }
 }
 
-/// Adds a given force on each listed point of a block to `nodes`, N.
+/// Adds a given force on each listed point of a block to `nodes`, N; the forces act `offset` metres from their points, at most
+/// half a cell along each axis.
 ///
 /// # Safety
-/// As for [`scatter`].
+/// As for [`scatter`]; with an offset, no other thread adds to nodes of any tile of the body meanwhile.
 #[inline(always)]
 pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<'_, D, B, T>,
@@ -154,12 +155,27 @@ pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N
     block: &Block<D>,
     edge: i32,
     nodes: *mut Node,
+    offset: &Vector<D>,
     forces: &[(u32, Vector<D>)],
 ) {
-    let tile = Tile::new(block, edge, N);
+    let tile = Tile::new(
+        block,
+        edge,
+        N,
+        if *offset == Vector::<D>::zeros() {
+            1
+        } else {
+            2
+        },
+    );
+    let geometry = pass.geometry;
     for (p, force) in forces {
         // SAFETY: row p belongs to this block alone (module header)
-        let position = unsafe { *columns.position.add(*p as usize) };
+        let mut position = unsafe { *columns.position.add(*p as usize) } + offset;
+        for a in 0..D {
+            let far = geometry.min[a] + geometry.cell_size * f64::from(geometry.cells[a]);
+            position[a] = position[a].clamp(geometry.min[a], far);
+        }
         let s = pass.stencil::<N>(&tile, &position);
         let mut value = [0.0; 4];
         value[..D].copy_from_slice(force.as_slice());

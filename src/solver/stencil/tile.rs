@@ -2,14 +2,15 @@
 
 use crate::grid::Block;
 
-/// The most rows that a tile has: 13 × 13, for blocks of 8 and stencils of 4 in 3D.
-const MAX_ROWS: usize = 169;
+/// The most rows that a tile has: 15 × 15, for blocks of 8, stencils of 4 and a margin of two in 3D.
+const MAX_ROWS: usize = 225;
 
-/// Storage of the nodes that the points of one block may reach: all rows of an `edge + N + 1` cube, one node below the block
-/// to `N` nodes above it.
+/// Storage of the nodes that stencils may reach that start in one block or up to `margin` nodes outside it: all rows of a cube
+/// of `edge + N + 2 margin − 1` nodes. Points may be one node outside their block, places half a cell from them two.
 pub struct Tile<const D: usize> {
     pub(super) rows: [usize; MAX_ROWS],
     pub(super) width: usize,
+    margin: usize,
     /// The last place at which a stencil may start, along every axis.
     last: u32,
     /// N, in a form that keeps the compiler from unrolling all N³ nodes of a 3D stencil, which takes it long and wins nothing.
@@ -18,25 +19,25 @@ pub struct Tile<const D: usize> {
 }
 
 impl<const D: usize> Tile<D> {
-    /// The tile of a block of `edge` nodes for stencils of `n` nodes.
+    /// The tile of a block of `edge` nodes for stencils of `n` nodes; `margin` is 1 or 2.
     #[inline(always)]
-    pub fn new(block: &Block<D>, edge: i32, n: usize) -> Self {
-        let width = edge as usize + n + 1;
+    pub fn new(block: &Block<D>, edge: i32, n: usize, margin: usize) -> Self {
+        let width = edge as usize + n + 2 * margin - 1;
         let edge = edge as usize;
         let mut rows = [0; MAX_ROWS];
         // (which of the three neighbouring blocks, row within it) of row t of the tile
         let place = |t: usize| match t {
-            0 => (0, edge - 1),
-            t if t <= edge => (1, t - 1),
-            t => (2, t - 1 - edge),
+            t if t < margin => (0, edge + t - margin),
+            t if t < margin + edge => (1, t - margin),
+            t => (2, t - margin - edge),
         };
         match D {
-            1 => rows[0] = block.anchors[0].0 as usize - 1,
+            1 => rows[0] = block.anchors[0].0 as usize - margin,
             2 => {
                 for t in 0..width {
                     let (column, i) = place(t);
                     let (base, stride) = block.anchors[column];
-                    rows[t] = base as usize + i * stride as usize - 1;
+                    rows[t] = base as usize + i * stride as usize - margin;
                 }
             }
             _ => {
@@ -45,7 +46,8 @@ impl<const D: usize> Tile<D> {
                     for u in 0..width {
                         let (next, j) = place(u);
                         let (base, stride) = block.anchors[3 * column + next];
-                        rows[t * width + u] = base as usize + (i * edge + j) * stride as usize - 1;
+                        rows[t * width + u] =
+                            base as usize + (i * edge + j) * stride as usize - margin;
                     }
                 }
             }
@@ -53,7 +55,8 @@ impl<const D: usize> Tile<D> {
         Self {
             rows,
             width,
-            last: edge as u32 + 1,
+            margin,
+            last: (edge + 2 * margin - 1) as u32,
             n: std::hint::black_box(n),
             origin: block.origin,
         }
@@ -65,7 +68,9 @@ impl<const D: usize> Tile<D> {
         let mut t = [0; D];
         for a in 0..D {
             // below the tile is far above it in unsigned numbers
-            let local = first[a].wrapping_sub(self.origin[a]).wrapping_add(1) as u32;
+            let local = first[a]
+                .wrapping_sub(self.origin[a])
+                .wrapping_add(self.margin as i32) as u32;
             t[a] = local.min(self.last) as usize;
         }
         t

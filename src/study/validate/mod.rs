@@ -44,6 +44,7 @@ cases! {
     large_bar,
     manufactured,
     uniaxial,
+    hydrostatic,
     shear_box,
     discs,
     rotation,
