@@ -26,14 +26,12 @@ impl Basis<4> for CubicBSpline {
         let s = x - f64::from(first);
         let r = 1.0 - s;
         let (s2, r2) = (s * s, r * r);
+        let (lowest, highest) = (r2 * r / 6.0, s2 * s / 6.0);
+        let lower = 2.0 / 3.0 - 0.5 * s2 * (1.0 + r);
         Axis {
             first,
-            weight: [
-                r2 * r / 6.0,
-                2.0 / 3.0 - 0.5 * s2 * (1.0 + r),
-                2.0 / 3.0 - 0.5 * r2 * (1.0 + s),
-                s2 * s / 6.0,
-            ],
+            // 2/3 is not a number of the machine: what the others leave of one makes the sum one, and momentum constant
+            weight: [lowest, lower, 1.0 - lowest - lower - highest, highest],
             slope: [
                 -0.5 * r2,
                 s * (1.5 * s - 2.0),

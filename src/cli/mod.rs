@@ -152,6 +152,10 @@ fn load(arguments: &ScenarioArguments, json: bool) -> Result<crate::scenario::Lo
 fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(
         || "scenario".into(),
-        |stem| stem.to_string_lossy().into_owned(),
+        |stem| match stem.to_string_lossy().into_owned() {
+            // `...toml` must not write beside the folder of runs
+            name if name.is_empty() || name.chars().all(|c| c == '.') => "scenario".into(),
+            name => name,
+        },
     )
 }

@@ -85,7 +85,7 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, ExitCode> {
         draw(&folder, scenario, sink.frames(), arguments.quiet);
     }
     if let Err(error) = result {
-        let (time, name) = (summary.time, folder.display());
+        let (time, name) = (summary.recorded, folder.display());
         out::message(&format!("tables up to t = {time:e} s are in {name}\n"));
         let code = match error {
             RunError::Fault(_) => code::RUN,

@@ -154,7 +154,6 @@ fn advance<const D: usize>(
             }
         }
     }
-    summary.momentum[1] = momentum(state);
     let gained = -summary.energy.numerical / summary.energy.turned_over.max(f64::MIN_POSITIVE);
     if gained > 0.05 {
         summary.warning = Some(format!(
@@ -247,6 +246,8 @@ fn record<const D: usize>(
         sink.frame(frame(state))?;
     }
     summary.rows += 1;
+    summary.recorded = state.time;
+    summary.momentum[1] = momentum(state);
     summary.energy = Energies::from(&account);
     let relative = account.residual.abs() / account.turned_over.max(f64::MIN_POSITIVE);
     summary.worst_energy_residual = summary.worst_energy_residual.max(relative);

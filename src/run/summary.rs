@@ -45,16 +45,18 @@ pub struct Summary {
     pub peak_memory: u64,
     /// Threads that the run could use.
     pub threads: usize,
-    /// Energies at the end, J.
+    /// Energies at the last recorded time, J.
     pub energy: Energies,
     /// Largest |residual| of the energy account at a recorded time, over the largest energy turned over.
     pub worst_energy_residual: f64,
-    /// Linear momentum of all bodies at the start and at the end, kg m/s.
+    /// Linear momentum of all bodies at the start and at the last recorded time, kg m/s.
     pub momentum: [Vec<f64>; 2],
     /// Steps that exceeded the stable one by the wave-speed estimate, with the largest excess as a ratio; null if none did.
     pub warning: Option<String>,
     /// Recorded rows in each table.
     pub rows: u64,
+    /// Time of the last recorded row, s; energies and the second momentum are those of it.
+    pub recorded: f64,
 }
 
 /// The energy account, J.

@@ -97,6 +97,17 @@ pub enum Scheme {
     ModifiedUpdateStressLast,
 }
 
+impl Scheme {
+    /// Its name in a scenario.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::UpdateStressFirst => "usf",
+            Self::UpdateStressLast => "usl",
+            Self::ModifiedUpdateStressLast => "musl",
+        }
+    }
+}
+
 /// A material: a density and a law.
 #[derive(Clone, Debug)]
 pub struct MaterialSpec {

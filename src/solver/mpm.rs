@@ -195,7 +195,14 @@ impl<const D: usize> Mpm<D> {
             .iter()
             .map(|body| {
                 let p = &body.particles;
+                // a law that softens keeps the step of its undeformed state: it may stiffen again within a step
                 let stiffness = body.material.max_stiffness(0..p.len(), &p.present());
+                let reference = body.material.reference_stiffness();
+                let stiffness = if stiffness < reference {
+                    reference
+                } else {
+                    stiffness
+                };
                 (stiffness / body.density).sqrt()
             })
             .fold(0.0, |most: f64, speed| {

@@ -6,7 +6,6 @@ use super::mpm::Mpm;
 use super::stencil::{CHUNK, Columns, Gathered, Rates, Reach, Scattered, Sources, Tile, Wanted};
 use crate::grid::{Block, Node};
 use crate::material::{Increments, MaterialPoints, StressMut};
-use crate::math::Vector;
 use crate::state::{Body, State};
 use rayon::prelude::*;
 
@@ -204,10 +203,8 @@ impl<const D: usize> Mpm<D> {
             let context = self.context(index, dt);
             let own = &self.blocks.bodies[index];
             let offset = loads.offset(load);
-            // tiles of places beside the points overlap within a colour, but such loads act on few points
-            let parallel = self.parallel && offset == Vector::<D>::zeros();
             for colour in &own.colours {
-                for_each(colour.len(), POINTS_PER_TASK / 4, parallel, |i| {
+                for_each(colour.len(), POINTS_PER_TASK / 4, self.parallel, |i| {
                     let block = &own.blocks[colour[i] as usize];
                     let forces = loads.in_rows(load, block.points());
                     if !forces.is_empty() {
@@ -367,7 +364,7 @@ impl<const D: usize> Mpm<D> {
         what: Wanted,
         from: &Sources,
     ) -> Gathered {
-        let tile = Tile::new(block, self.edge, self.kernels.nodes(), 1);
+        let tile = Tile::new(block, self.edge, self.kernels.nodes());
         let reach = Reach::new(block.origin, self.edge, self.geometry.cells, *shift);
         let mut rates = Rates::zeros();
         let mut total = Gathered::NONE;

@@ -482,7 +482,7 @@ impl EveryPass {
             let columns = Columns::new(&mut fast, count, T::AFFINE);
             let (mut gradients, mut hoops) = (Vec::new(), Vec::new());
             for block in &blocks.bodies[0].blocks {
-                let tile = Tile::new(block, edge, N, 1);
+                let tile = Tile::new(block, edge, N);
                 let reach = Reach::new(block.origin, edge, geometry.cells, kernels.shift(0));
                 for first in block.points().step_by(CHUNK) {
                     let rows = first..(first + CHUNK).min(block.points().end);

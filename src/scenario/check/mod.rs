@@ -52,7 +52,7 @@ pub(super) fn scenario(
     let mut root = document.root();
     if root.keys().is_empty() {
         if !document.is_broken() {
-            root.problem_here("the file is empty; `mpm new` writes one to start from");
+            root.problem_here("the file is empty; scenarios/bar1d.toml is one to start from");
         }
         return None;
     }
@@ -64,7 +64,7 @@ pub(super) fn scenario(
     let frame = frame(&mut root, document)?;
     let time = numerics::time(&mut root);
     let (grid, grid_reader) = numerics::grid(&mut root, frame);
-    let method = numerics::method(&mut root);
+    let method = numerics::method(&mut root, warnings);
     let materials = materials::materials(&mut root, document, frame, warnings);
     let bodies = bodies::bodies(&mut root, document, frame, grid.as_ref(), &materials);
     if let (Some(grid), Some(mut reader)) = (&grid, grid_reader) {

@@ -169,7 +169,20 @@ fn fitting_sizes(lengths: &[f64], size: f64) -> Vec<f64> {
 }
 
 /// The numerical method.
-pub(super) fn method(root: &mut Reader<'_>) -> Option<Method> {
+pub(super) fn method(root: &mut Reader<'_>, warnings: &mut Vec<String>) -> Option<Method> {
+    let method = read_method(root)?;
+    let linear = matches!(method.basis, BasisChoice::Linear(_));
+    let stable = method.update != Scheme::UpdateStressLast && !method.transfer.is_affine();
+    if linear && !stable {
+        let (transfer, update) = (method.transfer.name(), method.update.name());
+        warnings.push(format!(
+            "method: the linear basis with \"{transfer}\" and \"{update}\" blows up at any time step once points cross cells near a free surface; take transfer = \"flip\" with update = \"musl\", or basis = \"quadratic\""
+        ));
+    }
+    Some(method)
+}
+
+fn read_method(root: &mut Reader<'_>) -> Option<Method> {
     let mut given = root.optional_table("method");
     if given.is_none() && root.has("method") {
         return None;

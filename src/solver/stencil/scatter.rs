@@ -33,7 +33,7 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
     main: *mut Node,
     force: *mut Node,
 ) {
-    let tile = Tile::new(block, edge, N, 1);
+    let tile = Tile::new(block, edge, N);
     let width = packed_len(D);
     for p in block.points() {
         // SAFETY: row p belongs to this block alone (module header)
@@ -143,11 +143,12 @@ unsafe fn add_point<L: Lane, const D: usize, const N: usize>(
     }
 }
 
-/// Adds a given force on each listed point of a block to `nodes`, N; the forces act `offset` metres from their points, at most
-/// half a cell along each axis.
+/// Adds a given force on each listed point of a block to `nodes`, N, as if it acted `offset` metres from the point: node I gets
+/// the share N_I + offset · ∇N_I. The shares add up to one and their moment is that of the offset, as for N_I at the place
+/// itself, but no node gets a force that the point has no part in: beyond a free face there is no mass to take it.
 ///
 /// # Safety
-/// As for [`scatter`]; with an offset, no other thread adds to nodes of any tile of the body meanwhile.
+/// As for [`scatter`].
 #[inline(always)]
 pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<'_, D, B, T>,
@@ -158,28 +159,19 @@ pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N
     offset: &Vector<D>,
     forces: &[(u32, Vector<D>)],
 ) {
-    let tile = Tile::new(
-        block,
-        edge,
-        N,
-        if *offset == Vector::<D>::zeros() {
-            1
-        } else {
-            2
-        },
-    );
-    let geometry = pass.geometry;
+    let tile = Tile::new(block, edge, N);
     for (p, force) in forces {
         // SAFETY: row p belongs to this block alone (module header)
-        let mut position = unsafe { *columns.position.add(*p as usize) } + offset;
-        for a in 0..D {
-            let far = geometry.min[a] + geometry.cell_size * f64::from(geometry.cells[a]);
-            position[a] = position[a].clamp(geometry.min[a], far);
-        }
+        let position = unsafe { *columns.position.add(*p as usize) };
         let s = pass.stencil::<N>(&tile, &position);
-        let mut value = [0.0; 4];
-        value[..D].copy_from_slice(force.as_slice());
+        let value = lane::<L, D>(&force.data.0[0]);
+        let mut moments = [[L::splat(0.0); N]; D];
+        for a in 0..D {
+            for i in 0..N {
+                moments[a][i] = value.mul(L::splat(offset[a] * s.slope[a][i]));
+            }
+        }
         // SAFETY: the tile holds every node of the stencil
-        unsafe { scatter_value::<L, D, N>(nodes, &tile, s.at, &s.weight, L::new(value)) };
+        unsafe { add_point(nodes, &tile, &s, value, true, moments) };
     }
 }

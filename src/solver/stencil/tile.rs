@@ -2,15 +2,17 @@
 
 use crate::grid::Block;
 
-/// The most rows that a tile has: 15 × 15, for blocks of 8, stencils of 4 and a margin of two in 3D.
-const MAX_ROWS: usize = 225;
+/// The most rows that a tile has: 13 × 13, for blocks of 8 and stencils of 4 in 3D.
+const MAX_ROWS: usize = 169;
 
-/// Storage of the nodes that stencils may reach that start in one block or up to `margin` nodes outside it: all rows of a cube
-/// of `edge + N + 2 margin − 1` nodes. Points may be one node outside their block, places half a cell from them two.
+/// How many nodes outside its block a stencil may start.
+const MARGIN: usize = 1;
+
+/// Storage of the nodes that the points of one block may reach: all rows of an `edge + N + 1` cube, one node below the block
+/// to `N` nodes above it.
 pub struct Tile<const D: usize> {
     pub(super) rows: [usize; MAX_ROWS],
     pub(super) width: usize,
-    margin: usize,
     /// The last place at which a stencil may start, along every axis.
     last: u32,
     /// N, in a form that keeps the compiler from unrolling all N³ nodes of a 3D stencil, which takes it long and wins nothing.
@@ -19,25 +21,25 @@ pub struct Tile<const D: usize> {
 }
 
 impl<const D: usize> Tile<D> {
-    /// The tile of a block of `edge` nodes for stencils of `n` nodes; `margin` is 1 or 2.
+    /// The tile of a block of `edge` nodes for stencils of `n` nodes.
     #[inline(always)]
-    pub fn new(block: &Block<D>, edge: i32, n: usize, margin: usize) -> Self {
-        let width = edge as usize + n + 2 * margin - 1;
+    pub fn new(block: &Block<D>, edge: i32, n: usize) -> Self {
+        let width = edge as usize + n + 2 * MARGIN - 1;
         let edge = edge as usize;
         let mut rows = [0; MAX_ROWS];
         // (which of the three neighbouring blocks, row within it) of row t of the tile
         let place = |t: usize| match t {
-            t if t < margin => (0, edge + t - margin),
-            t if t < margin + edge => (1, t - margin),
-            t => (2, t - margin - edge),
+            t if t < MARGIN => (0, edge + t - MARGIN),
+            t if t < MARGIN + edge => (1, t - MARGIN),
+            t => (2, t - MARGIN - edge),
         };
         match D {
-            1 => rows[0] = block.anchors[0].0 as usize - margin,
+            1 => rows[0] = block.anchors[0].0 as usize - MARGIN,
             2 => {
                 for t in 0..width {
                     let (column, i) = place(t);
                     let (base, stride) = block.anchors[column];
-                    rows[t] = base as usize + i * stride as usize - margin;
+                    rows[t] = base as usize + i * stride as usize - MARGIN;
                 }
             }
             _ => {
@@ -47,7 +49,7 @@ impl<const D: usize> Tile<D> {
                         let (next, j) = place(u);
                         let (base, stride) = block.anchors[3 * column + next];
                         rows[t * width + u] =
-                            base as usize + (i * edge + j) * stride as usize - margin;
+                            base as usize + (i * edge + j) * stride as usize - MARGIN;
                     }
                 }
             }
@@ -55,8 +57,7 @@ impl<const D: usize> Tile<D> {
         Self {
             rows,
             width,
-            margin,
-            last: (edge + 2 * margin - 1) as u32,
+            last: (edge + 2 * MARGIN - 1) as u32,
             n: std::hint::black_box(n),
             origin: block.origin,
         }
@@ -70,7 +71,7 @@ impl<const D: usize> Tile<D> {
             // below the tile is far above it in unsigned numbers
             let local = first[a]
                 .wrapping_sub(self.origin[a])
-                .wrapping_add(self.margin as i32) as u32;
+                .wrapping_add(MARGIN as i32) as u32;
             t[a] = local.min(self.last) as usize;
         }
         t
