@@ -11,7 +11,8 @@ use crate::scenario::{
 use crate::solver::{Load, LoadForce, Mpm, Setup, Solver};
 use crate::state::{Body, Particles, State};
 
-/// Points below which threads cost more than they bring.
+/// Points below which threads cost more than they bring: on two cores two threads gained 3 % with 4,000 points in 2D and 25 % with
+/// 9,000, and lost 14 % with 2,000 in 1D (quadratic APIC, medians of three).
 pub const PARALLEL_FROM: usize = 8_000;
 
 /// Something to be done with a built scene, whose dimension is not known before the run.
