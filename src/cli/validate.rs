@@ -31,6 +31,9 @@ pub struct ValidateArguments {
     /// Write tables and pictures of computed against exact there
     #[arg(long, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Replace files in the output folder
+    #[arg(long)]
+    force: bool,
     #[command(flatten)]
     threads: ThreadArguments,
 }
@@ -62,6 +65,20 @@ pub fn validate(arguments: &ValidateArguments) -> Result<ExitCode, ExitCode> {
         }
         out::result(&table.to_string())?;
         return Ok(ExitCode::SUCCESS);
+    }
+    if let Some(folder) = &arguments.output {
+        let name = folder.display();
+        if folder.exists() && !folder.is_dir() {
+            let message = format!("{name} is a file; name a folder for tables and pictures");
+            return Err(fail(code::INPUT, &message));
+        }
+        let used = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
+        if used && !arguments.force {
+            let message = format!(
+                "{name} already holds files; name another folder with --output, or replace them with --force"
+            );
+            return Err(fail(code::INPUT, &message));
+        }
     }
     let mut outcomes = Vec::new();
     for case in cases {
