@@ -1,7 +1,7 @@
 //! `mpm`: a Material Point Method simulator for solids.
 //!
 //! Dependencies run one way: `cli` → `run`, `study` → `scenario`, `observe`, `report` → `solver` → `transfer`, `boundary`,
-//! `material`, `basis`, `grid` → `state` → `input`, `math`.
+//! `material`, `basis`, `grid` → `state` → `input`, `math`, `tensor`, `real`.
 
 pub mod basis;
 pub mod boundary;
@@ -11,6 +11,7 @@ pub mod input;
 pub mod material;
 pub mod math;
 pub mod observe;
+pub mod real;
 pub mod reorder;
 pub mod report;
 pub mod run;
@@ -18,4 +19,6 @@ pub mod scenario;
 pub mod solver;
 pub mod state;
 pub mod study;
+pub mod tensor;
+pub mod totals;
 pub mod transfer;

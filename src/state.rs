@@ -1,7 +1,7 @@
 //! What a simulation is at one instant: bodies made of material points.
 
 use crate::material::{MaterialPoints, Present};
-use crate::math::{Matrix, Sum, Vector, packed_len};
+use crate::math::{Matrix, Vector, packed_len};
 use crate::reorder;
 
 /// The columns that every material point of a body has. Columns that a scene does not need stay empty.
@@ -9,6 +9,9 @@ use crate::reorder;
 pub struct Particles<const D: usize> {
     /// x, m.
     pub position: Vec<Vector<D>>,
+    /// X, the position in the reference configuration, m, where the shape functions of the total Lagrangian frame are taken;
+    /// empty in the updated frame.
+    pub reference_position: Vec<Vector<D>>,
     /// v, m/s.
     pub velocity: Vec<Vector<D>>,
     /// m, kg.
@@ -17,6 +20,10 @@ pub struct Particles<const D: usize> {
     pub initial_volume: Vec<f64>,
     /// Kirchhoff stress τ = J σ, Pa, packed: `D (D + 1) / 2` numbers a point.
     pub stress: Vec<f64>,
+    /// Deformation gradient F = ∂x/∂X in the modelled directions; empty in the updated frame.
+    pub deformation_gradient: Vec<Matrix<D>>,
+    /// First Piola–Kirchhoff stress P = τ F⁻ᵀ in the modelled directions, Pa; empty in the updated frame.
+    pub first_piola_stress: Vec<Matrix<D>>,
     /// APIC's affine velocity field C, 1/s; empty for other transfers.
     pub affine: Vec<Matrix<D>>,
     /// Kirchhoff hoop stress, Pa; empty unless axisymmetric.
@@ -38,6 +45,20 @@ impl<const D: usize> Particles<D> {
         self.position.is_empty()
     }
 
+    /// Whether the shape functions are those of the reference configuration.
+    pub fn is_total(&self) -> bool {
+        !self.reference_position.is_empty()
+    }
+
+    /// Where the points stand in the grid, m: X in the total Lagrangian frame, x in the updated one.
+    pub fn grid_position(&self) -> &[Vector<D>] {
+        if self.is_total() {
+            &self.reference_position
+        } else {
+            &self.position
+        }
+    }
+
     /// Hoop stretch of point `p`, 1 unless axisymmetric.
     pub fn hoop_stretch(&self, p: usize) -> f64 {
         self.hoop_stretch.get(p).copied().unwrap_or(1.0)
@@ -57,6 +78,21 @@ impl<const D: usize> Particles<D> {
         }
     }
 
+    /// What laws see of point `p`.
+    pub fn present_of(&self, p: usize) -> Present<'_> {
+        let width = packed_len(D);
+        let hoops = if self.hoop_stretch.is_empty() {
+            0..0
+        } else {
+            p..p + 1
+        };
+        Present {
+            stress: &self.stress[p * width..(p + 1) * width],
+            hoop_stress: &self.hoop_stress[hoops.clone()],
+            hoop_stretches: &self.hoop_stretch[hoops],
+        }
+    }
+
     /// Memory of one point's columns, bytes.
     pub fn bytes_per_point(&self) -> usize {
         if self.is_empty() {
@@ -68,6 +104,7 @@ impl<const D: usize> Particles<D> {
             + 4
             + numbers(self.stress.len())
             + size_of::<Matrix<D>>() * usize::from(!self.affine.is_empty())
+            + (size_of::<Vector<D>>() + 2 * size_of::<Matrix<D>>()) * usize::from(self.is_total())
             + numbers(self.hoop_stress.len())
             + numbers(self.hoop_stretch.len())
     }
@@ -79,25 +116,32 @@ impl<const D: usize> Particles<D> {
         } else {
             count
         };
+        let total = if self.is_total() { count } else { 0 };
         self.position.len() == count
             && self.velocity.len() == count
             && self.mass.len() == count
             && self.initial_volume.len() == count
             && self.stress.len() == packed_len(D) * count
+            && self.reference_position.len() == total
+            && self.deformation_gradient.len() == total
+            && self.first_piola_stress.len() == total
             && self.affine.len() == if affine { count } else { 0 }
             && self.hoop_stress.len() == hoops
             && self.hoop_stretch.len() == hoops
             && self.id.len() == count
     }
 
-    /// Re-orders all columns: row `i` becomes what row `order[i]` was.
+    /// Puts all columns into another order, see [`reorder::cycles`].
     pub fn permute(&mut self, order: &[u32], leaders: &[u32], parallel: bool) {
         let Self {
             position,
+            reference_position,
             velocity,
             mass,
             initial_volume,
             stress,
+            deformation_gradient,
+            first_piola_stress,
             affine,
             hoop_stress,
             hoop_stretch,
@@ -118,13 +162,18 @@ impl<const D: usize> Particles<D> {
                 reorder::permute_in_place(hoop_stress, 1, order, leaders);
                 reorder::permute_in_place(hoop_stretch, 1, order, leaders);
             }
+            if !reference_position.is_empty() {
+                reorder::permute_in_place(reference_position, 1, order, leaders);
+                reorder::permute_in_place(deformation_gradient, 1, order, leaders);
+                reorder::permute_in_place(first_piola_stress, 1, order, leaders);
+            }
         };
         let mut affines = || {
             if !affine.is_empty() {
                 reorder::permute_in_place(affine, 1, order, leaders);
             }
         };
-        // each of the four moves about as many bytes; a join allocates nothing
+        // each of the four moves about as many bytes, but in the total frame, which sorts once; a join allocates nothing
         if parallel {
             rayon::join(
                 || rayon::join(motion, rest),
@@ -153,51 +202,7 @@ pub struct Body<const D: usize> {
     pub density: f64,
 }
 
-/// Sums over the points of one body or of all.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Totals<const D: usize> {
-    /// Mass, kg.
-    pub mass: f64,
-    /// Present volume, m³.
-    pub volume: f64,
-    /// Mass-weighted mean position, m.
-    pub position: Vector<D>,
-    /// Linear momentum, kg m/s.
-    pub momentum: Vector<D>,
-    /// Kinetic energy Σ ½ m v², J.
-    pub kinetic: f64,
-    /// Elastic energy, J.
-    pub elastic: f64,
-}
-
 impl<const D: usize> Body<D> {
-    /// Compensated sums over all points.
-    pub fn totals(&self) -> Totals<D> {
-        let p = &self.particles;
-        let (mut mass, mut volume, mut kinetic) = (Sum::default(), Sum::default(), Sum::default());
-        let (mut moment, mut momentum) = ([Sum::default(); D], [Sum::default(); D]);
-        for i in 0..p.len() {
-            mass.add(p.mass[i]);
-            volume.add(p.initial_volume[i] * self.material.volume_ratio(i, p.hoop_stretch(i)));
-            kinetic.add(0.5 * p.mass[i] * p.velocity[i].norm_squared());
-            for a in 0..D {
-                moment[a].add(p.mass[i] * p.position[i][a]);
-                momentum[a].add(p.mass[i] * p.velocity[i][a]);
-            }
-        }
-        let mass = mass.value();
-        Totals {
-            mass,
-            volume: volume.value(),
-            position: Vector::from_fn(|a, _| moment[a].value() / mass),
-            momentum: Vector::from_fn(|a, _| momentum[a].value()),
-            kinetic: kinetic.value(),
-            elastic: self
-                .material
-                .energy(0..p.len(), &p.present(), &p.initial_volume),
-        }
-    }
-
     /// The Cauchy stress of point `p`, Pa, in the modelled directions.
     pub fn cauchy_stress(&self, p: usize) -> Matrix<D> {
         let width = packed_len(D);

@@ -289,7 +289,9 @@ fn apic_keeps_angular_momentum() {
             let name = format!("{dimension}D {variant:?}");
             let run = simulate(&scene.text(variant), &[], true)
                 .unwrap_or_else(|error| panic!("{name}: {error}"));
-            let constant = matches!(variant.basis, "quadratic" | "cubic");
+            // In the total frame a point's moments are about nodes that have moved, which is the same only where F and the
+            // gradient of the velocity are those of a linear field over the stencil.
+            let constant = matches!(variant.basis, "quadratic" | "cubic") && !variant.is_total();
             let arm = if dimension == 2 { 10.0 } else { 5.0 };
             for axis in if dimension == 2 { &["z"][..] } else { &AXES } {
                 let spin = run.column("body_box", &format!("angular_momentum_{axis}"));

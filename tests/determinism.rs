@@ -24,6 +24,8 @@ fn bits_of<const D: usize>(body: &Body<D>) -> Vec<Vec<u64>> {
                 .copied()
                 .collect();
             numbers.extend(&p.stress[row * width..(row + 1) * width]);
+            let matrices = [&p.deformation_gradient, &p.first_piola_stress];
+            numbers.extend(matrices.iter().flat_map(|m| m.get(row)).flatten());
             numbers.extend(p.affine.get(row).iter().flat_map(|affine| affine.iter()));
             numbers.extend(
                 p.hoop_stress
@@ -79,10 +81,11 @@ fn run<const D: usize>(scenario: &Scenario, steps: u32, step: f64, parallel: boo
             .unwrap_or_else(|fault| panic!("{fault}"));
         sorts += usize::from(order(state) != before);
     }
+    let totals: Vec<_> = state.bodies.iter().map(|body| body.totals()).collect();
     let ledger = solver.ledger();
     Outcome {
         bits: state.bodies.iter().map(bits_of).collect(),
-        account: ledger.account(solver.stored(state)),
+        account: ledger.account(solver.stored(&totals)),
         reactions: (0..scenario.boundaries.len())
             .map(|boundary| {
                 ledger
@@ -105,7 +108,10 @@ fn same_on_any_number_of_threads(scene: &Scene) {
                 .expect("threads can be started")
         })
         .into();
-    for variant in variants() {
+    // in the total frame "musl" has every pass
+    let mut variants = variants();
+    variants.retain(|variant| !variant.is_total() || variant.update == "musl");
+    for variant in variants {
         let scenario = scene.scenario(&variant);
         let run = |parallel| match scene.dimension {
             1 => run::<1>(&scenario, scene.steps, scene.step, parallel),
@@ -114,9 +120,9 @@ fn same_on_any_number_of_threads(scene: &Scene) {
         };
         let name = format!("{}D {variant:?}", scene.dimension);
         let alone = run(false);
-        // points on a line keep their order
+        // points on a line keep their order, and in the total frame all points do
         assert!(
-            alone.sorts > 0 || scene.dimension == 1,
+            alone.sorts > 0 || scene.dimension == 1 || variant.is_total(),
             "{name}: points were never re-sorted"
         );
         for pool in &pools {

@@ -54,7 +54,10 @@ fn the_bar_is_read_field_by_field() {
         panic!("{:?}", material.law)
     };
     assert_eq!(
-        (law.elasticity.youngs_modulus, law.elasticity.poissons_ratio),
+        (
+            law.elasticity.youngs_modulus(),
+            law.elasticity.poissons_ratio(),
+        ),
         (100.0, 0.0)
     );
     let [body] = &scenario.bodies[..] else {

@@ -1,7 +1,8 @@
 //! Cubic B-splines: slopes and curvatures pass smoothly across cell edges.
 
-use super::{Axis, Basis, spline};
+use super::{Axis, Basis, Functions, spline};
 use crate::input::{Parameters, Reader};
+use crate::real::Real;
 
 /// Cubic B-splines on open uniform knots at the cell edges.
 ///
@@ -17,29 +18,35 @@ impl Parameters for CubicBSpline {
 }
 
 impl Basis<4> for CubicBSpline {
+    const INERTIA: Option<f64> = Some(1.0 / 3.0);
+
     #[inline(always)]
-    fn axis(&self, x: f64, cells: i32) -> Axis<4> {
-        let first = spline::cell_of(x, cells);
-        if first < 2 || first > cells - 3 {
-            return spline::clamped(x, first, cells);
-        }
-        let s = x - f64::from(first);
-        let r = 1.0 - s;
+    fn functions<R: Real>(&self, s: R) -> Functions<R, 4> {
+        let (half, one, two) = (R::splat(0.5), R::splat(1.0), R::splat(2.0));
+        let (sixth, slant) = (R::splat(1.0 / 6.0), R::splat(1.5));
+        let r = one - s;
         let (s2, r2) = (s * s, r * r);
-        let (lowest, highest) = (r2 * r / 6.0, s2 * s / 6.0);
-        let lower = 2.0 / 3.0 - 0.5 * s2 * (1.0 + r);
-        Axis {
-            first,
+        let (lowest, highest) = (r2 * r * sixth, s2 * s * sixth);
+        let lower = R::splat(2.0 / 3.0) - half * s2 * (one + r);
+        Functions {
             // 2/3 is not a number of the machine: what the others leave of one makes the sum one, and momentum constant
-            weight: [lowest, lower, 1.0 - lowest - lower - highest, highest],
+            weight: [lowest, lower, one - lowest - lower - highest, highest],
             slope: [
-                -0.5 * r2,
-                s * (1.5 * s - 2.0),
-                r * (2.0 - 1.5 * r),
-                0.5 * s2,
+                -half * r2,
+                s * (slant * s - two),
+                r * (two - slant * r),
+                half * s2,
             ],
-            arm: [-1.0 - s, -s, r, 1.0 + r],
+            arm: [-one - s, -s, r, one + r],
         }
+    }
+
+    fn alike(&self, cells: i32) -> (i32, i32) {
+        (2, cells - 3)
+    }
+
+    fn at_end(&self, x: f64, first: i32, cells: i32) -> Axis<4> {
+        spline::clamped(x, first, cells)
     }
 
     fn count(&self, cells: i32) -> i32 {

@@ -2,8 +2,9 @@
 //!
 //! The width is that of the undeformed point; it does not follow the deformation.
 
-use super::{Axis, Basis};
+use super::{Basis, Functions};
 use crate::input::{Parameters, Reader};
+use crate::real::Real;
 
 /// The mean of the hat function over a point that reaches from x − l to x + l: the contiguous-particle form of the
 /// generalised interpolation material point method (Bardenhagen and Kober 2004), derived here.
@@ -33,29 +34,25 @@ impl Basis<3> for Gimp {
     /// cell m and r = 2l − q in cell m + 1; e = max(0, 1 − s − 2l) is what the upper end lacks to reach node m + 1.
     /// The hat of node m falls over q to e: its mean is q (e + q/2) / (2l) = e + q²/(4l), since q = 2l wherever e > 0. The hat
     /// of node m + 2 rises from zero over r: its mean is r²/(4l). The hat of node m + 1 is what these two leave of one.
+    ///
+    /// With s = 0 where the lower end of the point passes a node, `first = floor(x + 1 − l)`.
     #[inline(always)]
-    fn axis(&self, x: f64, cells: i32) -> Axis<3> {
-        let l = self.half_width;
-        let lower = x - l;
-        // the largest whole number ≤ lower, which is above −1
-        let node = ((lower + 1.0) as i32 - 1).min(cells - 1);
-        let left = f64::from(node + 1) - lower; // 1 − s
-        let e = (left - 2.0 * l).max(0.0);
-        let q = left.min(2.0 * l);
-        let r = 2.0 * l - q;
-        let half = 0.5 / l;
-        let weight_first = 0.5 * half * q * q + e;
-        let weight_last = 0.5 * half * r * r;
-        let slope_last = half * r;
-        Axis {
-            first: node + 1,
-            weight: [
-                weight_first,
-                1.0 - weight_first - weight_last,
-                weight_last,
-            ],
-            slope: [slope_last - 1.0, 1.0 - 2.0 * slope_last, slope_last],
-            arm: [left - l - 1.0, left - l, left - l + 1.0],
+    fn functions<R: Real>(&self, s: R) -> Functions<R, 3> {
+        let l = R::splat(self.half_width);
+        let width = R::splat(2.0 * self.half_width);
+        let half = R::splat(0.5 / self.half_width);
+        let (zero, one, two) = (R::splat(0.0), R::splat(1.0), R::splat(2.0));
+        let left = one - s;
+        let e = (left - width).max(zero);
+        let q = left.min(width);
+        let r = width - q;
+        let first = R::splat(0.5) * half * q * q + e;
+        let last = R::splat(0.5) * half * r * r;
+        let rise = half * r;
+        Functions {
+            weight: [first, one - first - last, last],
+            slope: [rise - one, one - two * rise, rise],
+            arm: [left - l - one, left - l, left - l + one],
         }
     }
 

@@ -1,7 +1,8 @@
 //! Hat functions, one a grid node.
 
-use super::{Axis, Basis};
+use super::{Basis, Functions};
 use crate::input::{Parameters, Reader};
+use crate::real::Real;
 
 /// Piecewise linear functions: N = 1 − |x − i| on |x − i| < 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,12 +16,16 @@ impl Parameters for Linear {
 
 impl Basis<2> for Linear {
     const AFFINE_IS_SLOPE: bool = true;
+    const SLOPES_JUMP: bool = true;
 
     #[inline(always)]
-    fn axis(&self, x: f64, cells: i32) -> Axis<2> {
-        let first = (x as i32).min(cells - 1);
-        let s = x - f64::from(first);
-        Axis { first, weight: [1.0 - s, s], slope: [-1.0, 1.0], arm: [-s, 1.0 - s] }
+    fn functions<R: Real>(&self, s: R) -> Functions<R, 2> {
+        let one = R::splat(1.0);
+        Functions {
+            weight: [one - s, s],
+            slope: [-one, one],
+            arm: [-s, one - s],
+        }
     }
 
     fn count(&self, cells: i32) -> i32 {

@@ -4,6 +4,7 @@
 //! no grid: the solver multiplies axes together.
 
 use crate::input::{Parameters, Reader};
+use crate::real::Real;
 
 /// The functions that are not zero at one coordinate: `N` consecutive ones, starting at number `first`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,11 +19,65 @@ pub struct Axis<const N: usize> {
     pub arm: [f64; N],
 }
 
+/// What the functions of a stencil are at one place between nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Functions<R, const N: usize> {
+    /// Values N_i.
+    pub weight: [R; N],
+    /// Slopes dN_i/dx per cell.
+    pub slope: [R; N],
+    /// Arms x_i − x in cells.
+    pub arm: [R; N],
+}
+
 /// A family of shape functions over `cells` cells of unit length, complete to first order on `0 ≤ x ≤ cells`:
 /// `Σ N_i = 1` and `Σ N_i(x) position(i) = x` everywhere, the ends included.
 pub trait Basis<const N: usize>: Copy + Send + Sync + 'static {
+    /// The functions of a stencil at s = x + shift − first, `0 ≤ s ≤ 1`, where they are the same in every cell. Four points are
+    /// computed together: write it without branches.
+    fn functions<R: Real>(&self, s: R) -> Functions<R, N>;
+
+    /// How far before its point a stencil starts: `first = floor(x + shift)`, or the last stencil of the grid.
+    fn shift(&self) -> f64 {
+        0.0
+    }
+
+    /// Σ N_i (x_i − x)² of stencils that are [alike](Self::alike), in cells², if it is the same at every x.
+    const INERTIA: Option<f64> = None;
+
+    /// The first and last stencil whose functions are those of [`Self::functions`], numbered by their first function.
+    fn alike(&self, cells: i32) -> (i32, i32) {
+        (0, self.count(cells) - N as i32)
+    }
+
+    /// The functions at `x` of a stencil that is not [alike](Self::alike) the others: near the ends of the grid.
+    fn at_end(&self, x: f64, first: i32, cells: i32) -> Axis<N> {
+        let _ = cells;
+        let same = self.functions(x + self.shift() - f64::from(first));
+        Axis {
+            first,
+            weight: same.weight,
+            slope: same.slope,
+            arm: same.arm,
+        }
+    }
+
     /// The functions at `x` cells from the lower end, `0 ≤ x ≤ cells`.
-    fn axis(&self, x: f64, cells: i32) -> Axis<N>;
+    fn axis(&self, x: f64, cells: i32) -> Axis<N> {
+        let x_shifted = x + self.shift();
+        let first = (x_shifted as i32).min(self.count(cells) - N as i32);
+        let (low, high) = self.alike(cells);
+        if first < low || first > high {
+            return self.at_end(x, first, cells);
+        }
+        let Functions { weight, slope, arm } = self.functions(x_shifted - f64::from(first));
+        Axis {
+            first,
+            weight,
+            slope,
+            arm,
+        }
+    }
 
     /// The same basis for points that are `spacing` cells apart; only bases that give points an extent care.
     fn for_spacing(&self, spacing: f64) -> Self {
@@ -34,10 +89,9 @@ pub trait Basis<const N: usize>: Copy + Send + Sync + 'static {
     /// usual formula would divide zero by zero at a node.
     const AFFINE_IS_SLOPE: bool = false;
 
-    /// How far before its point a stencil starts: `first = floor(x + shift)`, but for the upper end of the grid.
-    fn shift(&self) -> f64 {
-        0.0
-    }
+    /// Whether a function may have a slope where it has no value, as hat functions have at the next node: then a point can be
+    /// told to strain by a node that has no mass.
+    const SLOPES_JUMP: bool = false;
 
     /// How many functions (nodes) an axis of `cells` cells has.
     fn count(&self, cells: i32) -> i32;

@@ -1,7 +1,8 @@
 //! Quadratic B-splines: smooth across cell edges, so that a point that changes cells meets no jump in slope.
 
-use super::{Axis, Basis, spline};
+use super::{Axis, Basis, Functions, spline};
 use crate::input::{Parameters, Reader};
+use crate::real::Real;
 
 /// Quadratic B-splines on open uniform knots at the cell edges.
 ///
@@ -16,20 +17,25 @@ impl Parameters for QuadraticBSpline {
 }
 
 impl Basis<3> for QuadraticBSpline {
+    const INERTIA: Option<f64> = Some(1.0 / 4.0);
+
     #[inline(always)]
-    fn axis(&self, x: f64, cells: i32) -> Axis<3> {
-        let first = spline::cell_of(x, cells);
-        if first < 1 || first > cells - 2 {
-            return spline::clamped(x, first, cells);
-        }
-        let s = x - f64::from(first);
-        let r = 1.0 - s;
-        Axis {
-            first,
-            weight: [0.5 * r * r, 0.5 + r * s, 0.5 * s * s],
+    fn functions<R: Real>(&self, s: R) -> Functions<R, 3> {
+        let (half, one) = (R::splat(0.5), R::splat(1.0));
+        let r = one - s;
+        Functions {
+            weight: [half * r * r, half + r * s, half * s * s],
             slope: [-r, r - s, s],
-            arm: [-0.5 - s, 0.5 - s, 1.5 - s],
+            arm: [-half - s, half - s, one + half - s],
         }
+    }
+
+    fn alike(&self, cells: i32) -> (i32, i32) {
+        (1, cells - 2)
+    }
+
+    fn at_end(&self, x: f64, first: i32, cells: i32) -> Axis<3> {
+        spline::clamped(x, first, cells)
     }
 
     fn count(&self, cells: i32) -> i32 {

@@ -58,9 +58,3 @@ pub(super) fn greville(index: i32, degree: i32, cells: i32) -> f64 {
     let inner = index + 1..=index + degree;
     inner.map(|j| knot(j, degree, cells)).sum::<f64>() / f64::from(degree)
 }
-
-/// The cell that holds `x`; the upper end of the grid belongs to the last one.
-#[inline(always)]
-pub(super) fn cell_of(x: f64, cells: i32) -> i32 {
-    (x as i32).min(cells - 1)
-}

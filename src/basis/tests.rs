@@ -76,6 +76,13 @@ impl Property for Complete {
                 unit += axis.slope[k] * place;
                 assert!(axis.weight[k] >= 0.0, "{label}: negative weight at {x}");
             }
+            let (low, high) = basis.alike(cells);
+            if let (Some(inertia), true) = (B::INERTIA, (low..=high).contains(&axis.first)) {
+                let sum: f64 = (0..N)
+                    .map(|k| axis.weight[k] * axis.arm[k] * axis.arm[k])
+                    .sum();
+                assert!((sum - inertia).abs() < 1e-15 * 4.0, "{label}: {sum} at {x}");
+            }
             assert!((one - 1.0).abs() < 1e-15 * 4.0, "{label}: sum {one} at {x}");
             assert!(
                 (position - x).abs() < 1e-14 * 2.0,

@@ -49,7 +49,7 @@ pub(super) fn expression(
         return fail(message, start..start + trimmed.len());
     }
     Ok(Expression {
-        program: compiler.program.into(),
+        program: super::share::share(&compiler.program).into(),
     })
 }
 

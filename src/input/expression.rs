@@ -34,6 +34,9 @@ impl std::error::Error for ExpressionError {}
 /// More values than this are never waiting at the same time; longer programs are refused when they are compiled.
 pub(super) const STACK: usize = 32;
 
+/// Parts of an expression that can be kept for a second use.
+pub(super) const SLOTS: usize = 32;
+
 /// A compiled expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
@@ -48,6 +51,10 @@ pub(super) enum Op {
     Load(u8),
     One(One),
     Two(Two),
+    /// Copies the last value into a slot.
+    Keep(u8),
+    /// Takes the value of a slot.
+    Recall(u8),
 }
 
 /// A function of one argument.
@@ -176,6 +183,7 @@ impl Expression {
             return value;
         }
         let mut stack = [0.0; STACK];
+        let mut slots = [0.0; SLOTS];
         let mut top = 0;
         for op in &self.program {
             match *op {
@@ -189,6 +197,11 @@ impl Expression {
                     } else {
                         at.time
                     };
+                    top += 1;
+                }
+                Op::Keep(slot) => slots[usize::from(slot)] = stack[top - 1],
+                Op::Recall(slot) => {
+                    stack[top] = slots[usize::from(slot)];
                     top += 1;
                 }
                 Op::One(function) => stack[top - 1] = function.of(stack[top - 1]),

@@ -13,6 +13,7 @@ mod overrides;
 mod problem;
 mod quantity;
 mod reader;
+mod share;
 mod suffix;
 mod suggest;
 mod tokens;

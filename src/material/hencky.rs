@@ -2,7 +2,8 @@
 
 use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
 use crate::input::{Parameters, Reader};
-use crate::math::{Matrix, from_eigen, symmetric_eigen};
+use crate::real::Real;
+use crate::tensor::Tensor;
 
 /// W = μ |ln V|² + λ/2 (ln J)² and so τ = 2μ ln V + λ ln J I, with V² = b.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,13 +20,17 @@ impl Parameters for Hencky {
 
 /// Principal logarithmic strains in the modelled directions with their directions, the transverse one, and ln J.
 #[inline(always)]
-fn logarithmic_strain<const D: usize>(
-    deformation: &Deformation<D>,
-) -> ([f64; D], Matrix<D>, f64, f64) {
-    let (finger_less_one, directions) = symmetric_eigen(&deformation.finger_less_one());
-    let strains = finger_less_one.map(|x| 0.5 * x.ln_1p());
+fn logarithmic_strain<R: Real, const D: usize>(
+    deformation: &Deformation<R, D>,
+) -> ([R; D], Tensor<R, D>, R, R) {
+    let (finger_less_one, directions) = deformation.finger_less_one().symmetric_eigen();
+    let mut strains = finger_less_one;
     let transverse = deformation.transverse.ln_1p();
-    let volume = strains.iter().sum::<f64>() + Deformation::<D>::TRANSVERSE * transverse;
+    let mut volume = transverse * Deformation::<R, D>::TRANSVERSE;
+    for k in 0..D {
+        strains[k] = finger_less_one[k].ln_1p() * 0.5;
+        volume = volume + strains[k];
+    }
     (strains, directions, transverse, volume)
 }
 
@@ -35,22 +40,26 @@ impl Hyperelastic for Hencky {
     }
 
     #[inline(always)]
-    fn stress<const D: usize>(&self, deformation: &Deformation<D>) -> Stress<D> {
+    fn stress<R: Real, const D: usize>(&self, deformation: &Deformation<R, D>) -> Stress<R, D> {
         let (lambda, mu) = self.elasticity.lame();
         let (strains, directions, transverse, volume) = logarithmic_strain(deformation);
-        let principal = strains.map(|strain| 2.0 * mu * strain + lambda * volume);
+        let pressure = volume * lambda;
+        let mut principal = strains;
+        for k in 0..D {
+            principal[k] = strains[k] * (2.0 * mu) + pressure;
+        }
         Stress {
-            plane: from_eigen(&principal, &directions),
-            transverse: 2.0 * mu * transverse + lambda * volume,
+            plane: Tensor::from_eigen(&principal, &directions),
+            transverse: transverse * (2.0 * mu) + pressure,
         }
     }
 
     #[inline]
-    fn energy<const D: usize>(&self, deformation: &Deformation<D>) -> f64 {
+    fn energy<const D: usize>(&self, deformation: &Deformation<f64, D>) -> f64 {
         let (lambda, mu) = self.elasticity.lame();
         let (strains, _, transverse, volume) = logarithmic_strain(deformation);
         let squares = strains.iter().map(|strain| strain * strain).sum::<f64>()
-            + Deformation::<D>::TRANSVERSE * transverse * transverse;
+            + Deformation::<f64, D>::TRANSVERSE * transverse * transverse;
         mu * squares + 0.5 * lambda * volume * volume
     }
 
@@ -62,7 +71,7 @@ impl Hyperelastic for Hencky {
     /// max(r, s), where r is Gershgorin's bound of the matrix with the diagonal μ − τ_i and the rest s_ik b_k − τ_k − μ, and
     /// s is the largest s_ik b_k. Free transverse directions replace λ by λ*, since τ is linear in ln V.
     #[inline]
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, plane: Plane) -> f64 {
+    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, plane: Plane) -> f64 {
         let (lambda, mu) = self.elasticity.lame();
         let (strains, _, _, volume) = logarithmic_strain(deformation);
         let stress = |i: usize| 2.0 * mu * strains[i] + lambda * volume;

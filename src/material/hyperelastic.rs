@@ -4,23 +4,26 @@
 use super::points::Points;
 use super::{Deformation, Isotropic, Kinematics, Law, Material, MaterialPoints, Plane, Stress};
 use crate::input::Parameters;
-use crate::math::{Matrix, determinant_less_one};
+use crate::real::{Mask, Real};
+use crate::tensor::Tensor;
 use std::fmt::Debug;
 
-/// A law with a stored energy W(F) per initial volume: three short functions of one deformation, valid for J > 0.
+/// A law with a stored energy W(F) per initial volume: three short functions of one deformation, for J > 0. What they give
+/// elsewhere is thrown away; they only have to come back.
 pub trait Hyperelastic: Parameters + Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The constants that the law has at small strain.
     fn elasticity(&self) -> Isotropic;
 
-    /// Kirchhoff stress τ = (∂W/∂F) Fᵀ, Pa.
-    fn stress<const D: usize>(&self, deformation: &Deformation<D>) -> Stress<D>;
+    /// Kirchhoff stress τ = (∂W/∂F) Fᵀ, Pa. Written as for one point and run for four at once, under the conditions of
+    /// [`Material::update_stress`].
+    fn stress<R: Real, const D: usize>(&self, deformation: &Deformation<R, D>) -> Stress<R, D>;
 
     /// W, J/m³.
-    fn energy<const D: usize>(&self, deformation: &Deformation<D>) -> f64;
+    fn energy<const D: usize>(&self, deformation: &Deformation<f64, D>) -> f64;
 
     /// An upper estimate of ρ₀ c², Pa, see [`Material::stiffness`]. With [`Plane::Stress`] the directions that are not
     /// modelled give way, otherwise they are held.
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, plane: Plane) -> f64;
+    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, plane: Plane) -> f64;
 
     /// One law for each kind of behaviour that the parameters can select, for the tests that every law has to pass.
     #[cfg(test)]
@@ -46,11 +49,11 @@ impl<L: Hyperelastic> Law for L {
     }
 }
 
-/// F ← (I + Δt L) F, written for H = F − I: H ← H + Δt L (I + H).
+/// F ← (I + Δt L) F, written for H = F − I: H ← H + Δt (L + L H).
 #[inline(always)]
-fn advance<const D: usize>(h: &Matrix<D>, step: &Kinematics<D>) -> Matrix<D> {
-    let l = step.rate * step.dt;
-    h + l + l * h
+fn advance<R: Real, const D: usize>(h: &Tensor<R, D>, step: &Kinematics<R, D>) -> Tensor<R, D> {
+    let l = step.rate;
+    l.times_plus(h, l).scaled_plus(step.dt, *h)
 }
 
 /// The components of F by name, row by row.
@@ -63,8 +66,8 @@ fn gradient_names<const D: usize>() -> Vec<String> {
 }
 
 /// F from H, row by row.
-fn gradient_values<const D: usize>(h: &Matrix<D>, values: &mut Vec<f64>) {
-    let f = Matrix::identity() + h;
+fn gradient_values<const D: usize>(h: &Tensor<f64, D>, values: &mut Vec<f64>) {
+    let f = h.plus_diagonal(1.0);
     values.extend((0..D).flat_map(|i| (0..D).map(move |j| f[(i, j)])));
 }
 
@@ -76,7 +79,7 @@ struct Held<L> {
 }
 
 #[inline(always)]
-fn held<const D: usize>(h: &Matrix<D>, hoop_stretch: f64) -> Deformation<D> {
+fn held<R: Real, const D: usize>(h: &Tensor<R, D>, hoop_stretch: R) -> Deformation<R, D> {
     Deformation {
         displacement_gradient: *h,
         transverse: hoop_stretch - 1.0,
@@ -84,35 +87,37 @@ fn held<const D: usize>(h: &Matrix<D>, hoop_stretch: f64) -> Deformation<D> {
 }
 
 impl<const D: usize, L: Hyperelastic> Material<D> for Held<L> {
-    type Memory = Matrix<D>;
+    type Memory<R: Real> = Tensor<R, D>;
 
-    fn initial_memory(&self) -> Matrix<D> {
-        Matrix::zeros()
+    fn initial_memory(&self) -> Tensor<f64, D> {
+        Tensor::zero()
     }
 
     #[inline(always)]
-    fn update_stress(&self, h: &mut Matrix<D>, stress: &mut Stress<D>, step: &Kinematics<D>) {
+    fn update_stress<R: Real>(
+        &self,
+        h: &mut Tensor<R, D>,
+        stress: &mut Stress<R, D>,
+        step: &Kinematics<R, D>,
+    ) {
         *h = advance(h, step);
         let deformation = held(h, step.hoop_stretch);
-        *stress = if deformation.volume_change() > -1.0 {
-            self.law.stress(&deformation)
-        } else {
-            Stress::undefined()
-        };
+        let possible = deformation.volume_change().greater(R::splat(-1.0));
+        *stress = self.law.stress(&deformation).defined_where(possible);
     }
 
     #[inline]
-    fn energy(&self, h: &Matrix<D>, _: &Stress<D>, hoop_stretch: f64) -> f64 {
+    fn energy(&self, h: &Tensor<f64, D>, _: &Stress<f64, D>, hoop_stretch: f64) -> f64 {
         self.law.energy(&held(h, hoop_stretch))
     }
 
     #[inline]
-    fn volume_ratio(&self, h: &Matrix<D>, hoop_stretch: f64) -> f64 {
+    fn volume_ratio(&self, h: &Tensor<f64, D>, hoop_stretch: f64) -> f64 {
         1.0 + held(h, hoop_stretch).volume_change()
     }
 
     #[inline]
-    fn stiffness(&self, h: &Matrix<D>, _: &Stress<D>, hoop_stretch: f64) -> f64 {
+    fn stiffness(&self, h: &Tensor<f64, D>, _: &Stress<f64, D>, hoop_stretch: f64) -> f64 {
         self.law.stiffness(&held(h, hoop_stretch), Plane::Strain)
     }
 
@@ -120,12 +125,8 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Held<L> {
         gradient_names::<D>()
     }
 
-    fn memory_values(&self, h: &Matrix<D>, values: &mut Vec<f64>) {
+    fn memory_values(&self, h: &Tensor<f64, D>, values: &mut Vec<f64>) {
         gradient_values(h, values);
-    }
-
-    fn memory_bits(&self, h: &Matrix<D>, bits: &mut Vec<u64>) {
-        bits.extend(h.iter().map(|x| x.to_bits()));
     }
 }
 
@@ -136,35 +137,35 @@ struct Free<L> {
 }
 
 impl<const D: usize, L: Hyperelastic> Material<D> for Free<L> {
-    type Memory = Deformation<D>;
+    type Memory<R: Real> = Deformation<R, D>;
 
-    fn initial_memory(&self) -> Deformation<D> {
-        held(&Matrix::zeros(), 1.0)
+    fn initial_memory(&self) -> Deformation<f64, D> {
+        held(&Tensor::zero(), 1.0)
     }
 
     #[inline(always)]
-    fn update_stress(
+    fn update_stress<R: Real>(
         &self,
-        memory: &mut Deformation<D>,
-        stress: &mut Stress<D>,
-        step: &Kinematics<D>,
+        memory: &mut Deformation<R, D>,
+        stress: &mut Stress<R, D>,
+        step: &Kinematics<R, D>,
     ) {
         memory.displacement_gradient = advance(&memory.displacement_gradient, step);
         *stress = relax(&self.law, memory);
     }
 
     #[inline]
-    fn energy(&self, memory: &Deformation<D>, _: &Stress<D>, _: f64) -> f64 {
+    fn energy(&self, memory: &Deformation<f64, D>, _: &Stress<f64, D>, _: f64) -> f64 {
         self.law.energy(memory)
     }
 
     #[inline]
-    fn volume_ratio(&self, memory: &Deformation<D>, _: f64) -> f64 {
+    fn volume_ratio(&self, memory: &Deformation<f64, D>, _: f64) -> f64 {
         1.0 + memory.volume_change()
     }
 
     #[inline]
-    fn stiffness(&self, memory: &Deformation<D>, _: &Stress<D>, _: f64) -> f64 {
+    fn stiffness(&self, memory: &Deformation<f64, D>, _: &Stress<f64, D>, _: f64) -> f64 {
         self.law.stiffness(memory, Plane::Stress)
     }
 
@@ -174,14 +175,9 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Free<L> {
         names
     }
 
-    fn memory_values(&self, memory: &Deformation<D>, values: &mut Vec<f64>) {
+    fn memory_values(&self, memory: &Deformation<f64, D>, values: &mut Vec<f64>) {
         gradient_values(&memory.displacement_gradient, values);
         values.push(1.0 + memory.transverse);
-    }
-
-    fn memory_bits(&self, memory: &Deformation<D>, bits: &mut Vec<u64>) {
-        bits.extend(memory.displacement_gradient.iter().map(|x| x.to_bits()));
-        bits.push(memory.transverse.to_bits());
     }
 }
 
@@ -189,66 +185,63 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Free<L> {
 /// stress there. Where there is none between 1/1000 and 1000, both are NaN.
 ///
 /// Secant steps in the logarithm of the stretch, the first with the slope of small strain, kept inside the bracket as soon
-/// as both of its ends are known. The search ends when a step is lost in round-off.
-fn relax<const D: usize, L: Hyperelastic>(law: &L, deformation: &mut Deformation<D>) -> Stress<D> {
+/// as both of its ends are known. The search ends when a step is lost in round-off. Each of four points ends its own search:
+/// the others leave it alone from then on.
+#[inline(always)]
+fn relax<R: Real, const D: usize, L: Hyperelastic>(
+    law: &L,
+    deformation: &mut Deformation<R, D>,
+) -> Stress<R, D> {
     const FARTHEST: f64 = 6.9; // ln 1000
     let (lambda, mu) = law.elasticity().lame();
-    let compliance = 1.0 / (Deformation::<D>::TRANSVERSE * lambda + 2.0 * mu);
-    let crushed = determinant_less_one(&deformation.displacement_gradient) <= -1.0;
+    let compliance = R::splat(1.0 / (Deformation::<R, D>::TRANSVERSE * lambda + 2.0 * mu));
+    let (zero, one, farthest) = (R::splat(0.0), R::splat(1.0), R::splat(FARTHEST));
+    let plane = deformation.displacement_gradient.determinant_less_one();
     let mut y = deformation.transverse.ln_1p();
     let mut stress = law.stress(deformation);
-    let (mut lower, mut upper) = (-FARTHEST, FARTHEST);
+    let (mut lower, mut upper) = (-farthest, farthest);
     let mut inverse_slope = compliance;
+    let mut found = one.greater(zero);
+    // a point that is not a number has been searched for
+    let mut searching = stress.transverse.abs().greater(zero) & plane.greater(-one);
     for _ in 0..100 {
+        if !searching.any() {
+            break;
+        }
         let residual = stress.transverse;
-        if residual == 0.0 {
-            break;
-        }
-        if residual > 0.0 {
-            upper = y;
-        } else {
-            lower = y;
-        }
-        let mut next = y - (residual * inverse_slope).clamp(-1.0, 1.0);
-        if next == y {
-            break;
-        }
-        if next.abs() >= FARTHEST {
-            y = f64::NAN; // no such stretch
-            break;
-        }
+        let above = residual.greater(zero);
+        upper = R::select(above, y, upper);
+        lower = R::select(above, lower, y);
+        let wish = residual * inverse_slope;
+        let wish = R::select(wish.abs().greater(one), one.copysign(wish), wish);
+        let mut next = y - wish;
+        searching = searching & (next.less(y) | next.greater(y));
+        let near = next.abs().less(farthest);
+        found = found & (near | !searching); // where not there is no such stretch
+        searching = searching & near;
         // y is one end of the bracket and the step leads away from it; the other end, if known, must not be passed
-        if next <= lower || next >= upper {
-            next = 0.5 * (lower + upper);
-        }
+        let passed = next.at_most(lower) | upper.at_most(next);
+        next = R::select(passed, (lower + upper) * 0.5, next);
         let step = next - y;
-        let small = step.abs() <= 4.0 * f64::EPSILON * next.abs();
+        let small = step.abs().at_most(next.abs() * (4.0 * f64::EPSILON));
         let trial = Deformation {
             transverse: next.exp_m1(),
             ..*deformation
         };
         let trial_stress = law.stress(&trial);
-        let change = trial_stress.transverse - residual;
-        let worse = trial_stress.transverse.abs() >= residual.abs();
-        if worse && step.abs() < 1e-10 {
-            break; // round-off is all that is left
-        }
-        y = next;
-        *deformation = trial;
-        stress = trial_stress;
-        if small {
-            break;
-        }
-        inverse_slope = if step / change > 0.0 {
-            step / change
-        } else {
-            compliance
-        };
+        let worse = residual.abs().at_most(trial_stress.transverse.abs());
+        // round-off is all that is left
+        searching = searching & !(worse & step.abs().less(R::splat(1e-10)));
+        y = R::select(searching, next, y);
+        deformation.transverse = R::select(searching, trial.transverse, deformation.transverse);
+        stress = Stress::select(searching, trial_stress, stress);
+        let slope = step / (trial_stress.transverse - residual);
+        inverse_slope = R::select(slope.greater(zero), slope, compliance);
+        searching = searching & !small & stress.transverse.abs().greater(zero);
     }
-    if crushed || y.is_nan() || stress.transverse.is_nan() {
-        deformation.transverse = f64::NAN;
-        return Stress::undefined();
-    }
-    stress.transverse = 0.0;
-    stress
+    let number = stress.transverse.abs().at_most(R::splat(f64::INFINITY));
+    let found = found & number & plane.greater(-one);
+    deformation.transverse = R::select(found, deformation.transverse, R::splat(f64::NAN));
+    stress.transverse = zero;
+    stress.defined_where(found)
 }

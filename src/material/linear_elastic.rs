@@ -6,11 +6,12 @@
 use super::points::Points;
 use super::{Isotropic, Kinematics, Law, Material, MaterialPoints, Plane, Stress};
 use crate::input::{Parameters, Reader};
-use crate::math::{Matrix, determinant_less_one, eigenvalue_spread, inverse, largest_eigenvalue};
+use crate::real::Real;
+use crate::tensor::Tensor;
 
 /// Which stress the rate is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rate {
+pub enum StressRate {
     /// `cauchy`: the true stress σ.
     Cauchy,
     /// `kirchhoff`: τ = J σ. With it the volume of a point drops out of its internal force, as in the classical algorithm,
@@ -24,15 +25,15 @@ pub struct LinearElastic {
     /// Elastic constants.
     pub elasticity: Isotropic,
     /// Which stress the rate is of.
-    pub rate: Rate,
+    pub rate: StressRate,
 }
 
 impl Parameters for LinearElastic {
     fn read(reader: &mut Reader<'_>) -> Option<Self> {
         let elasticity = Isotropic::read(reader);
         let rate = match reader.choice("rate", &["cauchy", "kirchhoff"], Some("cauchy")) {
-            Some("kirchhoff") => Some(Rate::Kirchhoff),
-            Some(_) => Some(Rate::Cauchy),
+            Some("kirchhoff") => Some(StressRate::Kirchhoff),
+            Some(_) => Some(StressRate::Cauchy),
             None => None,
         };
         Some(Self { elasticity: elasticity?, rate: rate? })
@@ -63,7 +64,7 @@ impl Law for LinearElastic {
 
     #[cfg(test)]
     fn samples(elasticity: Isotropic) -> Vec<Self> {
-        [Rate::Cauchy, Rate::Kirchhoff]
+        [StressRate::Cauchy, StressRate::Kirchhoff]
             .map(|rate| Self { elasticity, rate })
             .to_vec()
     }
@@ -73,7 +74,7 @@ impl Law for LinearElastic {
 #[derive(Clone)]
 struct Hypoelastic {
     elasticity: Isotropic,
-    rate: Rate,
+    rate: StressRate,
     axisymmetric: bool,
     /// λ, or λ* where the transverse directions are free, Pa.
     plane_lambda: f64,
@@ -87,7 +88,7 @@ struct Hypoelastic {
 }
 
 impl<const D: usize> Material<D> for Hypoelastic {
-    type Memory = f64;
+    type Memory<R: Real> = R;
 
     fn initial_memory(&self) -> f64 {
         0.0
@@ -97,52 +98,56 @@ impl<const D: usize> Material<D> for Hypoelastic {
     /// elastic increment, the rotation R = (I − Δt W/2)⁻¹ (I + Δt W/2), the other half: second order in Δt for a steady ∇v, and
     /// R is orthogonal, so that spin alone never changes the size of a stress.
     #[inline(always)]
-    fn update_stress(&self, memory: &mut f64, stress: &mut Stress<D>, step: &Kinematics<D>) {
-        let l = step.rate * step.dt;
-        let strain = (l + l.transpose()) * 0.5;
+    fn update_stress<R: Real>(
+        &self,
+        memory: &mut R,
+        stress: &mut Stress<R, D>,
+        step: &Kinematics<R, D>,
+    ) {
+        let one = R::splat(1.0);
+        let l = step.rate.scaled(step.dt);
+        let strain = l.plus_transpose() * 0.5;
         let hoop = step.hoop_rate * step.dt;
 
         // a transverse strain of −κ tr D multiplies lengths by 1 + side
-        let side = hoop - self.transverse_ratio * strain.trace();
+        let side = hoop - strain.trace() * self.transverse_ratio;
         let sides = match D {
-            1 => side * (2.0 + side),
-            _ => side,
+            1 => side * (side + 2.0),
+            2 => side,
+            _ => R::splat(0.0),
         };
-        let plane = determinant_less_one(&l);
-        let change = plane + sides + plane * sides;
-        let old_ratio = 1.0 + *memory;
-        *memory += change * old_ratio;
-        let ratio = 1.0 + *memory;
-        if ratio <= 0.0 || side <= -1.0 || plane <= -1.0 {
-            *stress = Stress::undefined();
-            return;
-        }
+        let plane = l.determinant_less_one();
+        let change = plane.mul_add(sides, plane + sides);
+        let old_ratio = *memory + 1.0;
+        *memory = change.mul_add(old_ratio, *memory);
+        let ratio = *memory + 1.0;
+        let possible = ratio.greater(R::splat(0.0)) & side.greater(-one) & plane.greater(-one);
 
-        let pressure = self.plane_lambda * (strain.trace() + hoop);
-        let half = Matrix::identity() * (0.5 * pressure) + strain * self.mu;
+        let pressure = (strain.trace() + hoop) * self.plane_lambda;
+        let half = (strain * self.mu).plus_diagonal(pressure * 0.5);
         let (before, after) = match self.rate {
-            Rate::Cauchy => (1.0 / old_ratio, ratio),
-            Rate::Kirchhoff => (1.0, 1.0),
+            StressRate::Cauchy => (one / old_ratio, ratio),
+            StressRate::Kirchhoff => (one, one),
         };
-        let mut rotated = stress.plane * before + half;
+        let mut rotated = stress.plane.scaled_plus(before, half);
         if D > 1 {
             let half_spin = (l - l.transpose()) * 0.25;
-            let rotation =
-                inverse(&(Matrix::identity() - half_spin)) * (Matrix::identity() + half_spin);
-            rotated = rotation * rotated * rotation.transpose();
-            rotated = (rotated + rotated.transpose()) * 0.5;
+            let identity = Tensor::identity();
+            let rotation = (identity - half_spin).inverse() * (identity + half_spin);
+            rotated = rotated.turned_by(&rotation);
         }
-        stress.plane = (rotated + half) * after;
+        stress.plane = (rotated + half).scaled(after);
         if self.axisymmetric {
-            let increment = pressure + 2.0 * self.mu * hoop;
-            stress.transverse = (stress.transverse * before + increment) * after;
+            let increment = hoop.mul_add(R::splat(2.0 * self.mu), pressure);
+            stress.transverse = stress.transverse.mul_add(before, increment) * after;
         }
+        *stress = stress.defined_where(possible);
     }
 
     /// J/2 σ : C⁻¹ : σ = τ : C⁻¹ : τ / (2J) or τ : C⁻¹ : τ / 2, with all three normal stresses;
     /// C⁻¹ : τ = ((1 + ν) τ − ν tr τ I) / E.
     #[inline]
-    fn energy(&self, memory: &f64, stress: &Stress<D>, _: f64) -> f64 {
+    fn energy(&self, memory: &f64, stress: &Stress<f64, D>, _: f64) -> f64 {
         let trace = stress.plane.trace();
         let sides = 3.0 - D as f64;
         let side = if self.axisymmetric {
@@ -152,12 +157,12 @@ impl<const D: usize> Material<D> for Hypoelastic {
         };
         let squares = stress.plane.norm_squared() + sides * side * side;
         let trace = trace + sides * side;
-        let nu = self.elasticity.poissons_ratio;
+        let nu = self.elasticity.poissons_ratio();
         let energy = ((1.0 + nu) * squares - nu * trace * trace)
-            / (2.0 * self.elasticity.youngs_modulus);
+            / (2.0 * self.elasticity.youngs_modulus());
         match self.rate {
-            Rate::Cauchy => energy / (1.0 + memory),
-            Rate::Kirchhoff => energy,
+            StressRate::Cauchy => energy / (1.0 + memory),
+            StressRate::Kirchhoff => energy,
         }
     }
 
@@ -174,21 +179,21 @@ impl<const D: usize> Material<D> for Hypoelastic {
     ///
     /// In 1D the spread is that to the transverse stress, so that a bar gets the same step in every dimension.
     #[inline]
-    fn stiffness(&self, memory: &f64, stress: &Stress<D>, _: f64) -> f64 {
+    fn stiffness(&self, memory: &f64, stress: &Stress<f64, D>, _: f64) -> f64 {
         let modulus = self.plane_lambda + 2.0 * self.mu;
         let (modulus, share) = match self.rate {
-            Rate::Cauchy => (
+            StressRate::Cauchy => (
                 modulus * (1.0 + memory),
                 self.transverse_ratio * (3.0 - D as f64),
             ),
-            Rate::Kirchhoff => (modulus, 1.0),
+            StressRate::Kirchhoff => (modulus, 1.0),
         };
         let spread = match D {
             1 => ((1.0 - self.held_share) * stress.plane[(0, 0)]).abs(),
-            _ => eigenvalue_spread(&stress.plane),
+            _ => stress.plane.eigenvalue_spread(),
         };
         let sign = 1.0_f64.copysign(share); // κ < 0 where ν < 0: then tension counts
-        let pressure = largest_eigenvalue(&(stress.plane * -sign)).max(0.0);
+        let pressure = (stress.plane * -sign).largest_eigenvalue().max(0.0);
         modulus + 0.75 * spread + share.abs() * (pressure + 0.25 * spread)
     }
 
@@ -198,9 +203,5 @@ impl<const D: usize> Material<D> for Hypoelastic {
 
     fn memory_values(&self, memory: &f64, values: &mut Vec<f64>) {
         values.push(1.0 + memory);
-    }
-
-    fn memory_bits(&self, memory: &f64, bits: &mut Vec<u64>) {
-        bits.push(memory.to_bits());
     }
 }

@@ -6,17 +6,23 @@
 mod deformation;
 mod elasticity;
 mod hyperelastic;
+mod numbers;
 mod points;
 #[cfg(test)]
 mod tests;
+mod update;
 
 pub use deformation::Deformation;
 pub use elasticity::Isotropic;
 pub use hyperelastic::Hyperelastic;
-pub use points::{Increments, MaterialPoints, Present, StressMut};
+pub use linear_elastic::StressRate;
+pub use numbers::{MOST, Numbers, one_by_one};
+pub use points::{Increments, MaterialPoints, Present, Rate, StressMut};
 
 use crate::input::{Parameters, Reader};
-use crate::math::Matrix;
+use crate::real::{Mask, Real};
+use crate::tensor::Tensor;
+use std::any::Any;
 use std::fmt::Debug;
 
 /// What the directions that a 1D or 2D scene does not model are doing.
@@ -33,42 +39,61 @@ pub enum Plane {
 
 /// How one point deforms over one step.
 #[derive(Clone, Copy, Debug)]
-pub struct Kinematics<const D: usize> {
+pub struct Kinematics<R, const D: usize> {
     /// Velocity gradient L = ∂v_i/∂x_j in the modelled directions, 1/s, x as it was at the start of the step: the step maps
     /// dx to (I + Δt L) dx.
-    pub rate: Matrix<D>,
+    pub rate: Tensor<R, D>,
     /// Stretch rate of the hoop direction, v_r/r at the start of the step, 1/s; 0 unless axisymmetric.
-    pub hoop_rate: f64,
+    pub hoop_rate: R,
     /// Stretch of the hoop direction after the step; 1 unless axisymmetric.
-    pub hoop_stretch: f64,
-    /// Duration of the step, s.
-    pub dt: f64,
+    pub hoop_stretch: R,
+    /// Duration of the step, s; the same for all points.
+    pub dt: R,
 }
 
 /// Kirchhoff stress of one point, Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stress<const D: usize> {
+pub struct Stress<R, const D: usize> {
     /// The modelled directions, symmetric.
-    pub plane: Matrix<D>,
+    pub plane: Tensor<R, D>,
     /// Each direction that is not modelled (out of plane, hoop). Kept from step to step in an axisymmetric scene only.
-    pub transverse: f64,
+    pub transverse: R,
 }
 
-impl<const D: usize> Stress<D> {
+impl<R: Real, const D: usize> Stress<R, D> {
     /// No stress.
+    #[inline(always)]
     pub fn zero() -> Self {
         Self {
-            plane: Matrix::zeros(),
-            transverse: 0.0,
+            plane: Tensor::zero(),
+            transverse: R::splat(0.0),
         }
     }
 
     /// The stress of a point that a law has no answer for; the health check at the end of a step finds it.
-    #[cold]
-    pub(crate) fn undefined() -> Self {
+    #[inline(always)]
+    pub fn undefined() -> Self {
         Self {
-            plane: Matrix::from_element(f64::NAN),
-            transverse: f64::NAN,
+            plane: Tensor::filled(f64::NAN),
+            transverse: R::splat(f64::NAN),
+        }
+    }
+
+    /// The same stress where the mask is set, [`Self::undefined`] elsewhere.
+    #[inline(always)]
+    pub fn defined_where(self, mask: R::Mask) -> Self {
+        if mask.all() {
+            return self;
+        }
+        Self::select(mask, self, Self::undefined())
+    }
+
+    /// `a` where the mask is set, `b` elsewhere.
+    #[inline(always)]
+    pub fn select(mask: R::Mask, a: Self, b: Self) -> Self {
+        Self {
+            plane: Tensor::select(mask, a.plane, b.plane),
+            transverse: R::select(mask, a.transverse, b.transverse),
         }
     }
 }
@@ -76,40 +101,47 @@ impl<const D: usize> Stress<D> {
 /// A constitutive law for points of a `D`-dimensional scene, its plane already chosen.
 pub trait Material<const D: usize>: Clone + Send + Sync + 'static {
     /// What a point remembers from step to step besides its stress: `()`, F, J, hardening …
-    type Memory: Copy + Send + Sync + Debug + 'static;
+    type Memory<R: Real>: Numbers<R> + Debug;
 
     /// The memory of an undeformed point.
-    fn initial_memory(&self) -> Self::Memory;
+    fn initial_memory(&self) -> Self::Memory<f64>;
 
     /// Carries memory and stress of one point over one step. A point that cannot be (J ≤ 0) gets a stress of NaN.
-    fn update_stress(
+    ///
+    /// Written as for one point, it is run for four at once: branches become [`Real::select`], or go through [`one_by_one`].
+    /// It has to be `#[inline(always)]`, and so has all that it calls with an `R` (see [`crate::real`]). What one point gets
+    /// must not depend on the three others.
+    fn update_stress<R: Real>(
         &self,
-        memory: &mut Self::Memory,
-        stress: &mut Stress<D>,
-        step: &Kinematics<D>,
+        memory: &mut Self::Memory<R>,
+        stress: &mut Stress<R, D>,
+        step: &Kinematics<R, D>,
     );
 
     /// Elastic energy stored in the point per initial volume, J/m³.
-    fn energy(&self, memory: &Self::Memory, stress: &Stress<D>, hoop_stretch: f64) -> f64;
+    fn energy(&self, memory: &Self::Memory<f64>, stress: &Stress<f64, D>, hoop_stretch: f64)
+    -> f64;
 
     /// J = current volume / initial volume of the point, out-of-plane stretch included.
-    fn volume_ratio(&self, memory: &Self::Memory, hoop_stretch: f64) -> f64;
+    fn volume_ratio(&self, memory: &Self::Memory<f64>, hoop_stretch: f64) -> f64;
 
     /// ρ₀ c² of the fastest elastic wave in the point's present state, Pa: an upper estimate, over all directions n in the
     /// modelled space, of the largest eigenvalue of the acoustic tensor Q(n) in the current configuration times J.
     ///
     /// Q(n) m = (δτ − τ Lᵀ) n, where δτ is the change of stress that the velocity gradient L = m ⊗ n makes in unit time:
     /// P = τ F⁻ᵀ, so that δP Fᵀ = δτ − τ Lᵀ. Zero-order terms of an axisymmetric scene (v_r/r) are no part of it.
-    fn stiffness(&self, memory: &Self::Memory, stress: &Stress<D>, hoop_stretch: f64) -> f64;
+    fn stiffness(
+        &self,
+        memory: &Self::Memory<f64>,
+        stress: &Stress<f64, D>,
+        hoop_stretch: f64,
+    ) -> f64;
 
     /// What the numbers that [`Self::memory_values`] gives are called.
     fn memory_names(&self) -> Vec<String>;
 
     /// What a point remembers, for people to look at.
-    fn memory_values(&self, memory: &Self::Memory, values: &mut Vec<f64>);
-
-    /// Every bit that a point remembers, for comparing two states exactly.
-    fn memory_bits(&self, memory: &Self::Memory, bits: &mut Vec<u64>);
+    fn memory_values(&self, memory: &Self::Memory<f64>, values: &mut Vec<f64>);
 }
 
 /// What a scenario calls a law: parameters that become a [`Material`] once dimension and plane are known.
@@ -147,8 +179,7 @@ macro_rules! materials {
                 match name { $($name => $law::read(reader).map(Self::$law),)* _ => None }
             }
 
-            /// The memory of `count` undeformed points of this law. `plane` says nothing in 3D.
-            pub fn points<const D: usize>(&self, plane: Plane, count: usize) -> Box<dyn MaterialPoints<D>> {
+            fn points_of<const D: usize>(&self, plane: Plane, count: usize) -> Box<dyn MaterialPoints<D>> {
                 match self { $(Self::$law(law) => law.points::<D>(plane, count)),* }
             }
 
@@ -166,6 +197,36 @@ macro_rules! materials {
             }
         }
     };
+}
+
+impl LawChoice {
+    /// The memory of `count` undeformed points of this law. `plane` says nothing in 3D.
+    ///
+    /// The three functions that it chooses from are not generic, so that all laws are compiled with this crate and not again
+    /// with every program that makes points.
+    pub fn points<const D: usize>(&self, plane: Plane, count: usize) -> Box<dyn MaterialPoints<D>> {
+        let points: Box<dyn Any> = match D {
+            1 => Box::new(self.points_1d(plane, count)),
+            2 => Box::new(self.points_2d(plane, count)),
+            _ => Box::new(self.points_3d(plane, count)),
+        };
+        match points.downcast() {
+            Ok(points) => *points,
+            Err(_) => unreachable!("a scene has 1, 2 or 3 dimensions"),
+        }
+    }
+
+    fn points_1d(&self, plane: Plane, count: usize) -> Box<dyn MaterialPoints<1>> {
+        self.points_of(plane, count)
+    }
+
+    fn points_2d(&self, plane: Plane, count: usize) -> Box<dyn MaterialPoints<2>> {
+        self.points_of(plane, count)
+    }
+
+    fn points_3d(&self, plane: Plane, count: usize) -> Box<dyn MaterialPoints<3>> {
+        self.points_of(plane, count)
+    }
 }
 
 materials! {

@@ -2,7 +2,8 @@
 
 use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
 use crate::input::{Parameters, Reader};
-use crate::math::{Matrix, excess_over_logarithm, largest_eigenvalue};
+use crate::math::excess_over_logarithm;
+use crate::real::Real;
 
 /// W = μ/2 (tr b − 3) − μ ln J + λ/2 (ln J)² and so τ = μ (b − I) + λ ln J I.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,24 +24,24 @@ impl Hyperelastic for NeoHookean {
     }
 
     #[inline(always)]
-    fn stress<const D: usize>(&self, deformation: &Deformation<D>) -> Stress<D> {
+    fn stress<R: Real, const D: usize>(&self, deformation: &Deformation<R, D>) -> Stress<R, D> {
         let (lambda, mu) = self.elasticity.lame();
-        let pressure = lambda * deformation.volume_change().ln_1p();
+        let pressure = deformation.volume_change().ln_1p() * lambda;
         Stress {
-            plane: deformation.finger_less_one() * mu + Matrix::identity() * pressure,
-            transverse: mu * deformation.transverse_finger_less_one() + pressure,
+            plane: (deformation.finger_less_one() * mu).plus_diagonal(pressure),
+            transverse: deformation.transverse_finger_less_one() * mu + pressure,
         }
     }
 
     /// tr b − 3 = 2 tr H + |H|² (and the same of the transverse stretches), so that W holds tr H − ln J. That is
     /// (J − 1 − ln J) − (J − 1 − tr H), both of second order: the terms of first order are cancelled on paper.
     #[inline]
-    fn energy<const D: usize>(&self, deformation: &Deformation<D>) -> f64 {
+    fn energy<const D: usize>(&self, deformation: &Deformation<f64, D>) -> f64 {
         let (lambda, mu) = self.elasticity.lame();
         let change = deformation.volume_change();
         let log_j = change.ln_1p();
         let squares = deformation.displacement_gradient.norm_squared()
-            + Deformation::<D>::TRANSVERSE * deformation.transverse * deformation.transverse;
+            + Deformation::<f64, D>::TRANSVERSE * deformation.transverse * deformation.transverse;
         let shape = excess_over_logarithm(change) - deformation.volume_change_beyond_trace();
         mu * (shape + 0.5 * squares) + 0.5 * lambda * log_j * log_j
     }
@@ -50,14 +51,14 @@ impl Hyperelastic for NeoHookean {
     /// Where the transverse stretches t are free, 2μ t² ε_t + λ (tr L + n ε_t) = 0 reduces the λ that multiplies tr L to
     /// λ · 2μt² / (2μt² + nλ), n being the number of free directions.
     #[inline]
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, plane: Plane) -> f64 {
+    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, plane: Plane) -> f64 {
         let (lambda, mu) = self.elasticity.lame();
         let mut bulk = lambda;
         if plane == Plane::Stress {
             let side = 2.0 * mu * (1.0 + deformation.transverse_finger_less_one());
-            bulk *= side / (side + Deformation::<D>::TRANSVERSE * lambda);
+            bulk *= side / (side + Deformation::<f64, D>::TRANSVERSE * lambda);
         }
-        let mut largest = largest_eigenvalue(&deformation.finger_less_one());
+        let mut largest = deformation.finger_less_one().largest_eigenvalue();
         if D < 3 {
             // waves do not run that way, but 3D counts it too: the same scene gets the same step in every dimension
             largest = largest.max(deformation.transverse_finger_less_one());

@@ -1,31 +1,51 @@
 //! The points of one body, as their law sees them: the only loops over points that a law needs, and one virtual call for
 //! each block of points.
 
-use super::{Kinematics, Material, Stress};
-use crate::math::{Matrix, Sum, pack, packed_len, unpack};
+use super::update::update;
+use super::{Material, Numbers, Stress};
+use crate::math::{Matrix, Sum, packed_len};
 use crate::reorder::permute_in_place;
+use crate::tensor::Tensor;
 use std::cell::UnsafeCell;
 use std::ops::Range;
 
 /// The Kirchhoff stresses of a block of points, Pa, to be carried over a step.
 pub struct StressMut<'a> {
-    /// Packed (see [`pack`]), D(D+1)/2 numbers a point.
+    /// Packed (see [`pack`](crate::math::pack)), D(D+1)/2 numbers a point.
     pub plane: &'a mut [f64],
     /// The hoop stress of each point; empty unless axisymmetric.
     pub hoop: &'a mut [f64],
+}
+
+/// The velocity gradient L of a point, 1/s: number a holds column a, ∂v/∂x_a, in its first `D` entries. The others may be
+/// anything, so that whoever has columns as lanes of four can store them as they are.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub struct Rate<const D: usize>(pub [[f64; 4]; D]);
+
+impl<const D: usize> From<Matrix<D>> for Rate<D> {
+    fn from(gradient: Matrix<D>) -> Self {
+        let mut columns = [[0.0; 4]; D];
+        for a in 0..D {
+            columns[a][..D].copy_from_slice(&gradient.data.0[a]);
+        }
+        Self(columns)
+    }
 }
 
 /// How a block of points deforms over one step.
 #[derive(Clone, Copy)]
 pub struct Increments<'a, const D: usize> {
     /// Velocity gradients, 1/s.
-    pub rates: &'a [Matrix<D>],
+    pub rates: &'a [Rate<D>],
     /// Hoop rates, 1/s; empty unless axisymmetric.
     pub hoop_rates: &'a [f64],
     /// Hoop stretches after the step; empty unless axisymmetric.
     pub hoop_stretches: &'a [f64],
     /// Duration of the step, s.
     pub dt: f64,
+    /// Whether to use wide instructions. Ignored where the processor has none.
+    pub wide: bool,
 }
 
 /// What the solver keeps of a block of points.
@@ -53,6 +73,19 @@ pub trait MaterialPoints<const D: usize>: Send + Sync {
     /// While this runs, no other call that reads or writes the memory of a point in `range` may run: concurrent calls need
     /// ranges that do not overlap.
     unsafe fn update(
+        &self,
+        range: Range<usize>,
+        stress: StressMut<'_>,
+        increments: &Increments<'_, D>,
+    );
+
+    /// [`Self::update`] of one point after the other, the laws' functions being run for single numbers.
+    ///
+    /// # Safety
+    ///
+    /// As there.
+    #[cfg(test)]
+    unsafe fn update_singly(
         &self,
         range: Range<usize>,
         stress: StressMut<'_>,
@@ -100,14 +133,37 @@ impl<const D: usize> Clone for Box<dyn MaterialPoints<D>> {
 /// A law and the memory of its points.
 pub(super) struct Points<const D: usize, M: Material<D>> {
     material: M,
-    memory: Column<M::Memory>,
+    /// The numbers of each point's memory, point after point.
+    memory: Column,
+    count: usize,
 }
 
 impl<const D: usize, M: Material<D>> Points<D, M> {
+    /// How many numbers the law remembers of a point.
+    const WIDTH: usize = <M::Memory<f64> as Numbers<f64>>::COUNT;
+
     /// `count` undeformed points.
     pub(super) fn new(material: M, count: usize) -> Self {
-        let memory = Column::new(material.initial_memory(), count);
-        Self { material, memory }
+        let mut initial = vec![0.0; Self::WIDTH];
+        material.initial_memory().to_numbers(&mut initial);
+        Self {
+            material,
+            memory: Column(
+                initial
+                    .iter()
+                    .cycle()
+                    .take(count * Self::WIDTH)
+                    .map(|&x| UnsafeCell::new(x))
+                    .collect(),
+            ),
+            count,
+        }
+    }
+
+    /// What is remembered of one point.
+    fn memory(&self, index: usize) -> M::Memory<f64> {
+        let first = index * Self::WIDTH;
+        M::Memory::from_numbers(self.memory.range(first..first + Self::WIDTH))
     }
 
     /// Memory, stress and hoop stretch of each point in `range`.
@@ -115,23 +171,22 @@ impl<const D: usize, M: Material<D>> Points<D, M> {
         &'a self,
         range: Range<usize>,
         present: &'a Present<'_>,
-    ) -> impl Iterator<Item = (&'a M::Memory, Stress<D>, f64)> {
+    ) -> impl Iterator<Item = (M::Memory<f64>, Stress<f64, D>, f64)> {
         let packed = present.stress.chunks_exact(packed_len(D));
-        let points = self.memory.range(range).iter().zip(packed);
-        points.enumerate().map(|(k, (memory, packed))| {
+        range.zip(packed).enumerate().map(|(k, (index, packed))| {
             let stress = Stress {
-                plane: unpack(packed),
+                plane: Tensor::from_packed(packed),
                 transverse: present.hoop_stress.get(k).copied().unwrap_or(0.0),
             };
             let stretch = present.hoop_stretches.get(k).copied().unwrap_or(1.0);
-            (memory, stress, stretch)
+            (self.memory(index), stress, stretch)
         })
     }
 }
 
 impl<const D: usize, M: Material<D>> MaterialPoints<D> for Points<D, M> {
     fn count(&self) -> usize {
-        self.memory.0.len()
+        self.count
     }
 
     unsafe fn update(
@@ -140,68 +195,47 @@ impl<const D: usize, M: Material<D>> MaterialPoints<D> for Points<D, M> {
         stress: StressMut<'_>,
         increments: &Increments<'_, D>,
     ) {
-        debug_assert_eq!(stress.plane.len(), packed_len(D) * range.len());
-        debug_assert_eq!(increments.rates.len(), range.len());
+        let rows = range.start * Self::WIDTH..range.end * Self::WIDTH;
         // SAFETY: the caller keeps everybody else away from these points.
-        let memory = unsafe { self.memory.range_mut(range) };
-        let packed = stress.plane.chunks_exact_mut(packed_len(D));
-        let points = memory.iter_mut().zip(packed).zip(increments.rates);
-        let dt = increments.dt;
-        if stress.hoop.is_empty() {
-            for ((memory, packed), &rate) in points {
-                let mut stress = Stress {
-                    plane: unpack(packed),
-                    transverse: 0.0,
-                };
-                let step = Kinematics {
-                    rate,
-                    hoop_rate: 0.0,
-                    hoop_stretch: 1.0,
-                    dt,
-                };
-                self.material.update_stress(memory, &mut stress, &step);
-                pack(&stress.plane, packed);
-            }
-        } else {
-            let hoops = stress.hoop.iter_mut().zip(increments.hoop_rates);
-            let hoops = hoops.zip(increments.hoop_stretches);
-            for (((memory, packed), &rate), ((hoop, &hoop_rate), &hoop_stretch)) in
-                points.zip(hoops)
-            {
-                let mut stress = Stress {
-                    plane: unpack(packed),
-                    transverse: *hoop,
-                };
-                let step = Kinematics {
-                    rate,
-                    hoop_rate,
-                    hoop_stretch,
-                    dt,
-                };
-                self.material.update_stress(memory, &mut stress, &step);
-                pack(&stress.plane, packed);
-                *hoop = stress.transverse;
-            }
-        }
+        let memory = unsafe { self.memory.range_mut(rows) };
+        update(&self.material, memory, stress, increments);
+    }
+
+    #[cfg(test)]
+    unsafe fn update_singly(
+        &self,
+        range: Range<usize>,
+        stress: StressMut<'_>,
+        increments: &Increments<'_, D>,
+    ) {
+        let rows = range.start * Self::WIDTH..range.end * Self::WIDTH;
+        // SAFETY: as above.
+        let memory = unsafe { self.memory.range_mut(rows) };
+        let rows = super::update::Rows {
+            memory,
+            stress,
+            increments: *increments,
+        };
+        super::update::every_group::<f64, D, M>(&self.material, rows);
     }
 
     fn energy(&self, range: Range<usize>, present: &Present<'_>, initial_volumes: &[f64]) -> f64 {
         let points = self.present(range, present).zip(initial_volumes);
         let energies = points.map(|((memory, stress, stretch), volume)| {
-            volume * self.material.energy(memory, &stress, stretch)
+            volume * self.material.energy(&memory, &stress, stretch)
         });
         energies.collect::<Sum>().value()
     }
 
     fn volume_ratio(&self, index: usize, hoop_stretch: f64) -> f64 {
         self.material
-            .volume_ratio(self.memory.get(index), hoop_stretch)
+            .volume_ratio(&self.memory(index), hoop_stretch)
     }
 
     fn max_stiffness(&self, range: Range<usize>, present: &Present<'_>) -> f64 {
         let mut largest = 0.0_f64;
         for (memory, stress, stretch) in self.present(range, present) {
-            let stiffness = self.material.stiffness(memory, &stress, stretch);
+            let stiffness = self.material.stiffness(&memory, &stress, stretch);
             if stiffness.is_nan() {
                 return f64::NAN;
             }
@@ -216,11 +250,11 @@ impl<const D: usize, M: Material<D>> MaterialPoints<D> for Points<D, M> {
     }
 
     fn permute(&mut self, order: &[u32], leaders: &[u32]) {
-        permute_in_place(self.memory.all_mut(), 1, order, leaders);
+        permute_in_place(self.memory.all_mut(), Self::WIDTH, order, leaders);
     }
 
     fn bytes_per_point(&self) -> usize {
-        size_of::<M::Memory>()
+        Self::WIDTH * size_of::<f64>()
     }
 
     fn memory_names(&self) -> Vec<String> {
@@ -228,65 +262,60 @@ impl<const D: usize, M: Material<D>> MaterialPoints<D> for Points<D, M> {
     }
 
     fn memory_values(&self, index: usize, values: &mut Vec<f64>) {
-        self.material.memory_values(self.memory.get(index), values);
+        self.material.memory_values(&self.memory(index), values);
     }
 
     fn state_bits(&self, bits: &mut Vec<u64>) {
-        for memory in self.memory.range(0..self.count()) {
-            self.material.memory_bits(memory, bits);
-        }
+        bits.extend(self.memory.all().iter().map(|x| x.to_bits()));
     }
 
     fn clone_box(&self) -> Box<dyn MaterialPoints<D>> {
-        let memory = self.memory.range(0..self.count());
-        let memory = memory
-            .iter()
-            .map(|&memory| UnsafeCell::new(memory))
-            .collect();
         Box::new(Self {
             material: self.material.clone(),
-            memory: Column(memory),
+            memory: Column::new(self.memory.all()),
+            count: self.count,
         })
     }
 }
 
-/// A column whose parts several threads may change at once, if they promise to keep apart.
+/// A column of numbers whose parts several threads may change at once, if they promise to keep apart.
 ///
 /// The cells allow change through a shared reference; who changes what is settled by the one unsafe function,
 /// [`Column::range_mut`], which only [`MaterialPoints::update`] calls and whose condition it hands on to its caller. All other
 /// functions read, or have the column to themselves.
-struct Column<T>(Vec<UnsafeCell<T>>);
+struct Column(Vec<UnsafeCell<f64>>);
 
-// SAFETY: sharing a column lets threads read it (T: Sync) and, through `range_mut` alone, change it (T: Send); callers of
-// `range_mut` promise that nobody else touches the rows that they change.
-unsafe impl<T: Send + Sync> Sync for Column<T> {}
+// SAFETY: sharing a column lets threads read it and, through `range_mut` alone, change it; callers of `range_mut` promise that
+// nobody else touches the rows that they change.
+unsafe impl Sync for Column {}
 
-impl<T: Copy> Column<T> {
-    fn new(value: T, count: usize) -> Self {
-        Self((0..count).map(|_| UnsafeCell::new(value)).collect())
+impl Column {
+    fn new(numbers: &[f64]) -> Self {
+        Self(numbers.iter().map(|&x| UnsafeCell::new(x)).collect())
     }
 
-    fn get(&self, index: usize) -> &T {
-        &self.range(index..index + 1)[0]
+    fn range(&self, range: Range<usize>) -> &[f64] {
+        let cells: *const [UnsafeCell<f64>] = &raw const self.0[range];
+        // SAFETY: UnsafeCell<f64> has the layout of f64, and callers of `range_mut` keep readers of their rows away.
+        unsafe { &*(cells as *const [f64]) }
     }
 
-    fn range(&self, range: Range<usize>) -> &[T] {
-        let cells: *const [UnsafeCell<T>] = &raw const self.0[range];
-        // SAFETY: UnsafeCell<T> has the layout of T, and callers of `range_mut` keep readers of their rows away.
-        unsafe { &*(cells as *const [T]) }
+    fn all(&self) -> &[f64] {
+        self.range(0..self.0.len())
     }
 
     /// # Safety
     ///
     /// As long as the result lives, no other reference to one of its rows may be used or made.
     #[allow(clippy::mut_from_ref)] // that is what the cells are for
-    unsafe fn range_mut(&self, range: Range<usize>) -> &mut [T] {
+    unsafe fn range_mut(&self, range: Range<usize>) -> &mut [f64] {
         let rows = &self.0[range];
-        // SAFETY: UnsafeCell<T> has the layout of T and allows change behind a shared reference; nobody else uses these rows.
+        // SAFETY: UnsafeCell<f64> has the layout of f64 and allows change behind a shared reference; nobody else uses these
+        // rows.
         unsafe { std::slice::from_raw_parts_mut(UnsafeCell::raw_get(rows.as_ptr()), rows.len()) }
     }
 
-    fn all_mut(&mut self) -> &mut [T] {
+    fn all_mut(&mut self) -> &mut [f64] {
         let count = self.0.len();
         // SAFETY: `&mut self` is the only reference there is.
         unsafe { self.range_mut(0..count) }

@@ -3,7 +3,7 @@
 
 use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
 use crate::input::{Parameters, Reader};
-use crate::math::{Matrix, largest_eigenvalue};
+use crate::real::Real;
 
 /// W = λ/2 (tr E)² + μ E : E, S = λ tr E I + 2μ E and τ = F S Fᵀ.
 ///
@@ -27,27 +27,28 @@ impl Hyperelastic for StVenantKirchhoff {
     }
 
     #[inline(always)]
-    fn stress<const D: usize>(&self, deformation: &Deformation<D>) -> Stress<D> {
+    fn stress<R: Real, const D: usize>(&self, deformation: &Deformation<R, D>) -> Stress<R, D> {
         let (lambda, mu) = self.elasticity.lame();
         let strain = deformation.green_strain();
-        let transverse = 0.5 * deformation.transverse_finger_less_one();
-        let pressure = lambda * (strain.trace() + Deformation::<D>::TRANSVERSE * transverse);
-        let second_piola = Matrix::identity() * pressure + strain * (2.0 * mu);
+        let transverse = deformation.transverse_finger_less_one() * 0.5;
+        let sides = transverse * Deformation::<R, D>::TRANSVERSE;
+        let pressure = (strain.trace() + sides) * lambda;
+        let second_piola = (strain * (2.0 * mu)).plus_diagonal(pressure);
         let f = deformation.gradient();
         Stress {
-            plane: f * second_piola * f.transpose(),
-            transverse: (1.0 + 2.0 * transverse) * (pressure + 2.0 * mu * transverse),
+            plane: second_piola.turned_by(&f),
+            transverse: (transverse * 2.0 + 1.0) * (transverse * (2.0 * mu) + pressure),
         }
     }
 
     #[inline]
-    fn energy<const D: usize>(&self, deformation: &Deformation<D>) -> f64 {
+    fn energy<const D: usize>(&self, deformation: &Deformation<f64, D>) -> f64 {
         let (lambda, mu) = self.elasticity.lame();
         let strain = deformation.green_strain();
         let transverse = 0.5 * deformation.transverse_finger_less_one();
-        let trace = strain.trace() + Deformation::<D>::TRANSVERSE * transverse;
+        let trace = strain.trace() + Deformation::<f64, D>::TRANSVERSE * transverse;
         let squares =
-            strain.norm_squared() + Deformation::<D>::TRANSVERSE * transverse * transverse;
+            strain.norm_squared() + Deformation::<f64, D>::TRANSVERSE * transverse * transverse;
         0.5 * lambda * trace * trace + mu * squares
     }
 
@@ -55,12 +56,12 @@ impl Hyperelastic for StVenantKirchhoff {
     /// Q = (n·τ n) I + (λ + μ) b n ⊗ b n + μ (n·b n) b, at most the largest principal τ plus (λ + 2μ) b².
     /// Free transverse directions replace λ by λ* (see [`Isotropic::plane_lambda`]) since S is linear in E.
     #[inline]
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, plane: Plane) -> f64 {
+    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, plane: Plane) -> f64 {
         let (_, mu) = self.elasticity.lame();
         let modulus = self.elasticity.plane_lambda::<D>(plane) + 2.0 * mu;
-        let largest = 1.0 + largest_eigenvalue(&deformation.finger_less_one());
+        let largest = 1.0 + deformation.finger_less_one().largest_eigenvalue();
         let stress = self.stress(deformation).plane;
-        largest_eigenvalue(&stress) + modulus * largest * largest
+        stress.largest_eigenvalue() + modulus * largest * largest
     }
 
     #[cfg(test)]

@@ -35,7 +35,7 @@ impl<const D: usize> Observer<D> for BodyTable {
     }
 
     fn row(&self, view: &View<'_, D>) -> Vec<f64> {
-        let totals = view.state.bodies[self.body].totals();
+        let totals = &view.totals[self.body];
         std::iter::once(view.state.time)
             .chain(numbers(&totals.position))
             .chain(numbers(&(totals.momentum / totals.mass)))

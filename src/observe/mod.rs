@@ -17,6 +17,7 @@ pub use sink::{CsvSink, Frame, Memory, Point, Sink, Table};
 use crate::math::Vector;
 use crate::solver::{Account, Ledger};
 use crate::state::State;
+use crate::totals::Totals;
 
 /// One recorded state.
 pub struct View<'a, const D: usize> {
@@ -28,6 +29,8 @@ pub struct View<'a, const D: usize> {
     pub ledger: &'a Ledger<D>,
     /// For each body, angular momentum about the origin, kg m²/s: one number in 2D, three in 3D, none in 1D.
     pub spin: &'a [Vec<f64>],
+    /// The sums of each body.
+    pub totals: &'a [Totals<D>],
 }
 
 /// A table of a run.

@@ -6,7 +6,8 @@ use crate::material::Plane;
 use crate::math::{Matrix, Vector, packed_len};
 use crate::observe::{BodyTable, EnergyTable, Observer, ProbeTable, ReactionTable};
 use crate::scenario::{
-    GridSpec, LoadKind, LoadSpec, PointSet, ProbeTarget, Region, Scenario, body_points,
+    GridSpec, LoadKind, LoadSpec, PointSet, ProbeTarget, ReferenceFrame, Region, Scenario,
+    body_points,
 };
 use crate::solver::{Load, LoadForce, Mpm, Setup, Solver};
 use crate::state::{Body, Particles, State};
@@ -103,21 +104,30 @@ fn build_body<const D: usize>(scenario: &Scenario, index: usize, set: &PointSet)
         };
         Vector::from_fn(|a, _| spec.velocity[a].value(&at))
     });
+    let position: Vec<Vector<D>> = set
+        .positions
+        .iter()
+        .map(|x| Vector::from_fn(|a, _| x[a]))
+        .collect();
+    let total = if scenario.method.frame == ReferenceFrame::Total {
+        count
+    } else {
+        0
+    };
     Body {
         name: spec.name.clone(),
         particles: Particles {
             velocity: velocity.collect(),
-            position: set
-                .positions
-                .iter()
-                .map(|x| Vector::from_fn(|a, _| x[a]))
-                .collect(),
+            reference_position: position[..total].to_vec(),
+            position,
             mass: volume
                 .iter()
                 .map(|volume| material.density * volume)
                 .collect(),
             initial_volume: volume,
             stress: vec![0.0; count * packed_len(D)],
+            deformation_gradient: vec![Matrix::identity(); total],
+            first_piola_stress: vec![Matrix::zeros(); total],
             affine: if affine {
                 let gradient = |at: &[f64; 3]| velocity_gradient(&spec.velocity, *at, &set.spacing);
                 set.positions.iter().map(gradient).collect()

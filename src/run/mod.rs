@@ -7,13 +7,14 @@ mod method;
 mod summary;
 
 pub use build::{Computing, PARALLEL_FROM, Scene, SceneVisitor, build, build_with, with_scene};
-pub use summary::{Energies, Progress, Summary, peak_memory};
+pub use summary::{Energies, Progress, Summary, memory_now, peak_memory};
 
 use crate::math::Vector;
 use crate::observe::{Frame, Observer, Point, Sink, View};
 use crate::scenario::{Scenario, StepRule};
 use crate::solver::{Fault, Solver, TimeStep};
-use crate::state::State;
+use crate::state::{Body, State};
+use crate::totals::Totals;
 use std::io;
 use std::time::{Duration, Instant};
 
@@ -108,7 +109,7 @@ fn advance<const D: usize>(
         sink.open(&observer.name(), &observer.header())?;
     }
     solver.start(state)?;
-    summary.momentum[0] = momentum(state);
+    summary.momentum[0] = momentum(&totals(state));
     record(state, solver.as_ref(), observers, sink, summary)?;
     let mut time_step = TimeStep::new(scenario.step, scenario.end);
     let mut monitoring = Pace::new();
@@ -217,9 +218,15 @@ fn frame<const D: usize>(state: &State<D>) -> Frame {
     }
 }
 
-fn momentum<const D: usize>(state: &State<D>) -> Vec<f64> {
-    let total: Vector<D> = state.bodies.iter().map(|body| body.totals().momentum).sum();
-    total.iter().copied().collect()
+/// Linear momentum of all bodies, kg m/s.
+fn momentum<const D: usize>(totals: &[Totals<D>]) -> Vec<f64> {
+    let sum: Vector<D> = totals.iter().map(|body| body.momentum).sum();
+    sum.iter().copied().collect()
+}
+
+/// The sums of every body.
+fn totals<const D: usize>(state: &State<D>) -> Vec<Totals<D>> {
+    state.bodies.iter().map(Body::totals).collect()
 }
 
 fn record<const D: usize>(
@@ -229,7 +236,8 @@ fn record<const D: usize>(
     sink: &mut dyn Sink,
     summary: &mut Summary,
 ) -> Result<(), RunError> {
-    let account = solver.ledger().account(solver.stored(state));
+    let totals = totals(state);
+    let account = solver.ledger().account(solver.stored(&totals));
     let spin: Vec<Vec<f64>> = (0..state.bodies.len())
         .map(|body| solver.angular_momentum(state, body))
         .collect();
@@ -238,6 +246,7 @@ fn record<const D: usize>(
         account,
         ledger: solver.ledger(),
         spin: &spin,
+        totals: &totals,
     };
     for observer in observers {
         sink.row(&observer.name(), &observer.row(&view))?;
@@ -247,7 +256,7 @@ fn record<const D: usize>(
     }
     summary.rows += 1;
     summary.recorded = state.time;
-    summary.momentum[1] = momentum(state);
+    summary.momentum[1] = momentum(&totals);
     summary.energy = Energies::from(&account);
     let relative = account.residual.abs() / account.turned_over.max(f64::MIN_POSITIVE);
     summary.worst_energy_residual = summary.worst_energy_residual.max(relative);

@@ -94,8 +94,18 @@ impl From<&Account> for Energies {
 
 /// Largest memory of this process so far, bytes; 0 where the system does not tell.
 pub fn peak_memory() -> u64 {
+    from_status("VmHWM:")
+}
+
+/// Memory that this process has now, bytes; 0 where the system does not tell.
+pub fn memory_now() -> u64 {
+    from_status("VmRSS:")
+}
+
+/// A number of bytes that Linux tells of this process.
+fn from_status(name: &str) -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let line = status.lines().find_map(|line| line.strip_prefix(name));
     let kibibytes = line.and_then(|line| {
         line.trim()
             .trim_end_matches("kB")

@@ -84,6 +84,31 @@ pub struct Method {
     pub transfer: TransferChoice,
     /// When stresses are updated.
     pub update: Scheme,
+    /// Which configuration the shape functions belong to.
+    pub frame: ReferenceFrame,
+}
+
+/// The configuration of the bodies that shape functions are taken in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ReferenceFrame {
+    /// `updated`: the present one; points move through the grid.
+    #[default]
+    Updated,
+    /// `total`: the initial one; points stay where they are in the grid, and their present positions are found beside it.
+    Total,
+}
+
+impl ReferenceFrame {
+    /// All names.
+    pub const NAMES: [&'static str; 2] = ["updated", "total"];
+
+    /// Its name in a scenario.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Updated => Self::NAMES[0],
+            Self::Total => Self::NAMES[1],
+        }
+    }
 }
 
 /// When in a step the stresses are updated.
@@ -98,6 +123,13 @@ pub enum Scheme {
 }
 
 impl Scheme {
+    /// All of them.
+    pub const ALL: [Self; 3] = [
+        Self::UpdateStressFirst,
+        Self::UpdateStressLast,
+        Self::ModifiedUpdateStressLast,
+    ];
+
     /// Its name in a scenario.
     pub fn name(&self) -> &'static str {
         match self {

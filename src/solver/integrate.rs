@@ -164,6 +164,30 @@ fn vector<const D: usize>(node: &Node) -> Vector<D> {
     Vector::from_fn(|a, _| node.0[a])
 }
 
+/// Sums over nodes on which nothing but gravity and the points act; component D means nothing.
+#[derive(Default)]
+struct FreeSums {
+    /// Σ ½ m v∘v at the start of the step.
+    arrived: [f64; 4],
+    /// The same at its end.
+    left: [f64; 4],
+    /// Σ f ∘ (v + v'), twice the power of internal forces.
+    internal: [f64; 4],
+    /// Σ m (v + v') / 2.
+    momentum: [f64; 4],
+}
+
+impl FreeSums {
+    fn add_to<const D: usize>(&self, dt: f64, gravity: &Vector<D>, sums: &mut GridSums) {
+        for a in 0..D {
+            sums.arrived += self.arrived[a];
+            sums.left += self.left[a];
+            sums.internal += 0.5 * dt * self.internal[a];
+            sums.gravity += dt * gravity[a] * self.momentum[a];
+        }
+    }
+}
+
 struct Shared<'a, const D: usize> {
     external: &'a [Node],
     ranges: &'a [(u32, u32)],
@@ -185,8 +209,15 @@ impl<const D: usize> Shared<'_, D> {
         constraints: &mut [Constraint<D>],
     ) -> GridSums {
         let mut sums = GridSums::default();
+        let mut free = FreeSums::default();
+        // without these a node needs a few operations; most scenes have no others, but for the nodes at their sides
+        let plain = external.is_empty() && self.decay == 1.0;
         let mut rest = constraints;
         for k in 0..main.len() {
+            if plain && rest.first().is_none_or(|next| next.offset as usize > k) {
+                self.free_node(&mut main[k], change.get_mut(k), &mut free);
+                continue;
+            }
             let held = rest.partition_point(|constraint| constraint.offset as usize == k);
             let (here, after) = std::mem::take(&mut rest).split_at_mut(held);
             rest = after;
@@ -216,7 +247,54 @@ impl<const D: usize> Shared<'_, D> {
                 change.0[..D].copy_from_slice(difference.as_slice());
             }
         }
+        free.add_to::<D>(self.dt, &self.gravity, &mut sums);
         sums
+    }
+
+    /// What [`Self::node`] does where nothing but gravity and the points act: four numbers at once, the mass among them, the mass as if it
+    /// were a component.
+    #[inline(always)]
+    fn free_node(&self, main: &mut Node, change: Option<&mut Node>, sums: &mut FreeSums) {
+        let mass = main.0[D];
+        if mass <= NO_MASS {
+            *main = Node::default();
+            if let Some(change) = change {
+                *change = Node::default();
+            }
+            return;
+        }
+        let mut g = [0.0; 4];
+        g[..D].copy_from_slice(self.gravity.as_slice());
+        let inverse = 1.0 / mass;
+        let half = 0.5 * mass;
+        // four are added and multiplied as fast as three
+        let components = if D == 3 { 4 } else { D };
+        match change {
+            Some(change) => {
+                for a in 0..components {
+                    let start = main.0[a] * inverse;
+                    let pull = change.0[a];
+                    let end = start + (g[a] + pull * inverse) * self.dt;
+                    sums.arrived[a] += half * start * start;
+                    sums.left[a] += half * end * end;
+                    sums.internal[a] += pull * (start + end);
+                    sums.momentum[a] += half * (start + end);
+                    change.0[a] = end - start;
+                    main.0[a] = end;
+                }
+            }
+            None => {
+                for a in 0..components {
+                    let start = main.0[a] * inverse;
+                    let end = start + g[a] * self.dt;
+                    sums.arrived[a] += half * start * start;
+                    sums.left[a] += half * end * end;
+                    sums.momentum[a] += half * (start + end);
+                    main.0[a] = end;
+                }
+            }
+        }
+        main.0[D] = PRESENT;
     }
 
     /// One node: velocity at the end of the step and its change.

@@ -2,14 +2,14 @@
 //!
 //! This is where the types of a run end: a virtual call for a block of points, none for a point.
 
-use super::lane::Portable;
 use super::stencil::{
-    Columns, Gathered, Pass, Rates, Reach, Scattered, Sources, Tile, Wanted, gather, scatter,
-    scatter_forces,
+    Columns, Gathered, Pass, Rates, Reach, Scattered, Sources, Tile, Wanted, exchange, gather,
+    scatter, scatter_forces,
 };
 use crate::basis::Basis;
 use crate::grid::{Block, Geometry, Node};
 use crate::math::Vector;
+use crate::real::Portable;
 use crate::transfer::Transfer;
 use std::ops::Range;
 
@@ -80,6 +80,19 @@ pub trait Kernels<const D: usize>: Send + Sync {
         offset: &Vector<D>,
         forces: &[(u32, Vector<D>)],
     );
+
+    /// [`exchange`] for one block.
+    ///
+    /// # Safety
+    /// As there.
+    unsafe fn exchange(
+        &self,
+        context: &Context<'_, D>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        sources: &Sources,
+        second: *mut Node,
+    ) -> Gathered;
 
     /// [`gather`] for some rows of a block.
     ///
@@ -218,6 +231,21 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
         }
     }
 
+    unsafe fn exchange(
+        &self,
+        context: &Context<'_, D>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        sources: &Sources,
+        second: *mut Node,
+    ) -> Gathered {
+        let pass = self.pass(context);
+        with_lanes!(
+            context.wide,
+            exchange(&pass, columns, block, context.edge, sources, second)
+        )
+    }
+
     unsafe fn gather(
         &self,
         context: &Context<'_, D>,
@@ -241,7 +269,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
 #[cfg(target_arch = "x86_64")]
 mod wide {
     use super::*;
-    use crate::solver::lane::Avx;
+    use crate::real::Avx;
 
     #[target_feature(enable = "avx2,fma")]
     pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
@@ -255,6 +283,19 @@ mod wide {
     ) {
         // SAFETY: passed on to the caller
         unsafe { super::scatter::<Avx, D, N, B, T>(pass, columns, block, edge, what, main, force) }
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    pub unsafe fn exchange<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+        pass: &Pass<'_, D, B, T>,
+        columns: &Columns<D>,
+        block: &Block<D>,
+        edge: i32,
+        sources: &Sources,
+        second: *mut Node,
+    ) -> Gathered {
+        // SAFETY: passed on to the caller
+        unsafe { super::exchange::<Avx, D, N, B, T>(pass, columns, block, edge, sources, second) }
     }
 
     #[target_feature(enable = "avx2,fma")]
@@ -273,17 +314,5 @@ mod wide {
         unsafe {
             super::gather::<Avx, D, N, B, T>(pass, columns, tile, reach, rows, what, sources, rates)
         }
-    }
-}
-
-/// Whether this processor has the wide instructions that the fast kernels use.
-pub fn wide_instructions() -> bool {
-    #[cfg(target_arch = "x86_64")]
-    {
-        std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    {
-        false
     }
 }

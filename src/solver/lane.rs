@@ -1,13 +1,22 @@
 //! Four numbers at once: with wide instructions where the processor has them, one after the other where not.
 
+use crate::real::{Portable, Real};
+
 /// Four `f64` that are added and multiplied together.
-pub trait Lane: Copy {
-    /// The same number four times.
-    fn splat(x: f64) -> Self;
+///
+/// In memory points stand one after the other, `D` numbers each; in lanes either a point's numbers stand together, or the same
+/// number of four points.
+pub trait Lane: Real {
     /// From an array.
     fn new(x: [f64; 4]) -> Self;
     /// To an array.
     fn array(self) -> [f64; 4];
+    /// Number `I` four times.
+    fn broadcast<const I: usize>(self) -> Self;
+    /// Whether all four lie in `low ..= high`; false if one is not a number.
+    fn all_within(self, low: f64, high: f64) -> bool;
+    /// Four whole numbers, not negative.
+    fn whole(self) -> [u32; 4];
     /// Reads four numbers.
     ///
     /// # Safety
@@ -18,23 +27,37 @@ pub trait Lane: Copy {
     /// # Safety
     /// `to` points to four writable numbers, aligned to 32 bytes.
     unsafe fn store(self, to: *mut f64);
-    /// Sum.
-    fn add(self, other: Self) -> Self;
-    /// Product.
-    fn mul(self, other: Self) -> Self;
-    /// `self * b + c`, rounded once or twice as the processor can.
-    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// Reads `D` numbers; the others are zero.
+    ///
+    /// # Safety
+    /// `from` points to `D` readable numbers.
+    unsafe fn load_point<const D: usize>(from: *const f64) -> Self;
+    /// Writes a `D` × `D` matrix, whose columns are the first `D` numbers of each lane.
+    ///
+    /// # Safety
+    /// `to` points to `D²` writable numbers.
+    unsafe fn store_matrix<const D: usize>(columns: &[Self; D], to: *mut f64);
+    /// Reads four points of `D` numbers each, one after the other: lane a has number a of each.
+    ///
+    /// # Safety
+    /// `from` points to `4 D` readable numbers.
+    unsafe fn load_points<const D: usize>(from: *const f64) -> [Self; D];
+    /// Writes what [`Self::load_points`] reads.
+    ///
+    /// # Safety
+    /// `to` points to `4 D` writable numbers.
+    unsafe fn store_points<const D: usize>(points: &[Self; D], to: *mut f64);
+    /// Lane a has number a of each of the four.
+    fn turn<const D: usize>(points: &[Self; 4]) -> [Self; D];
+    /// The columns of a symmetric matrix that is stored row by row from the diagonal on; what follows the first `D` numbers of a
+    /// column may be anything that the matrix holds.
+    ///
+    /// # Safety
+    /// `from` points to `D (D + 1) / 2` readable numbers.
+    unsafe fn load_symmetric<const D: usize>(from: *const f64) -> [Self; D];
 }
 
-/// Plain arithmetic, for any processor.
-#[derive(Clone, Copy, Debug)]
-pub struct Portable([f64; 4]);
-
 impl Lane for Portable {
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Self([x; 4])
-    }
     #[inline(always)]
     fn new(x: [f64; 4]) -> Self {
         Self(x)
@@ -42,6 +65,18 @@ impl Lane for Portable {
     #[inline(always)]
     fn array(self) -> [f64; 4] {
         self.0
+    }
+    #[inline(always)]
+    fn broadcast<const I: usize>(self) -> Self {
+        Self([self.0[I]; 4])
+    }
+    #[inline(always)]
+    fn all_within(self, low: f64, high: f64) -> bool {
+        self.0.iter().all(|&x| x >= low && x <= high)
+    }
+    #[inline(always)]
+    fn whole(self) -> [u32; 4] {
+        self.0.map(|x| x as u32)
     }
     #[inline(always)]
     unsafe fn load(from: *const f64) -> Self {
@@ -54,84 +89,57 @@ impl Lane for Portable {
         unsafe { *to.cast() = self.0 }
     }
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        let (a, b) = (self.0, other.0);
-        Self([a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]])
+    unsafe fn load_point<const D: usize>(from: *const f64) -> Self {
+        let mut x = [0.0; 4];
+        for a in 0..D {
+            // SAFETY: the caller vouches for D numbers
+            x[a] = unsafe { *from.add(a) };
+        }
+        Self(x)
     }
     #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        let (a, b) = (self.0, other.0);
-        Self([a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]])
+    unsafe fn store_matrix<const D: usize>(columns: &[Self; D], to: *mut f64) {
+        for a in 0..D {
+            for b in 0..D {
+                // SAFETY: the caller vouches for D² numbers
+                unsafe { *to.add(a * D + b) = columns[a].0[b] };
+            }
+        }
     }
     #[inline(always)]
-    fn mul_add(self, b: Self, c: Self) -> Self {
-        // not f64::mul_add: without the instruction it is a slow library call
-        let (a, b, c) = (self.0, b.0, c.0);
-        Self([
-            a[0] * b[0] + c[0],
-            a[1] * b[1] + c[1],
-            a[2] * b[2] + c[2],
-            a[3] * b[3] + c[3],
-        ])
+    unsafe fn load_points<const D: usize>(from: *const f64) -> [Self; D] {
+        // SAFETY: the caller vouches for 4 D numbers
+        std::array::from_fn(|a| Self(std::array::from_fn(|q| unsafe { *from.add(q * D + a) })))
+    }
+    #[inline(always)]
+    unsafe fn store_points<const D: usize>(points: &[Self; D], to: *mut f64) {
+        for a in 0..D {
+            for q in 0..4 {
+                // SAFETY: the caller vouches for 4 D numbers
+                unsafe { *to.add(q * D + a) = points[a].0[q] };
+            }
+        }
+    }
+    #[inline(always)]
+    fn turn<const D: usize>(points: &[Self; 4]) -> [Self; D] {
+        std::array::from_fn(|a| Self(std::array::from_fn(|q| points[q].0[a])))
+    }
+    #[inline(always)]
+    unsafe fn load_symmetric<const D: usize>(from: *const f64) -> [Self; D] {
+        let mut columns = [Self([0.0; 4]); D];
+        let mut at = 0;
+        for i in 0..D {
+            for j in i..D {
+                // SAFETY: the caller vouches for D (D + 1) / 2 numbers
+                let x = unsafe { *from.add(at) };
+                columns[i].0[j] = x;
+                columns[j].0[i] = x;
+                at += 1;
+            }
+        }
+        columns
     }
 }
 
 #[cfg(target_arch = "x86_64")]
-pub use avx::Avx;
-
-#[cfg(target_arch = "x86_64")]
-mod avx {
-    use super::Lane;
-    use std::arch::x86_64::{
-        __m256d, _mm256_add_pd, _mm256_fmadd_pd, _mm256_load_pd, _mm256_mul_pd, _mm256_set1_pd,
-        _mm256_store_pd,
-    };
-
-    /// One 256-bit register. Made only in functions that are compiled for AVX2 and FMA and called after both were found at
-    /// run time; its methods are inlined there, which is what makes the instructions below sound and fast.
-    #[derive(Clone, Copy, Debug)]
-    pub struct Avx(__m256d);
-
-    impl Lane for Avx {
-        #[inline(always)]
-        fn splat(x: f64) -> Self {
-            // SAFETY: only reached where AVX was found (see the type)
-            Self(unsafe { _mm256_set1_pd(x) })
-        }
-        #[inline(always)]
-        fn new(x: [f64; 4]) -> Self {
-            // SAFETY: both types are 32 bytes of f64
-            Self(unsafe { std::mem::transmute::<[f64; 4], __m256d>(x) })
-        }
-        #[inline(always)]
-        fn array(self) -> [f64; 4] {
-            // SAFETY: both types are 32 bytes of f64
-            unsafe { std::mem::transmute::<__m256d, [f64; 4]>(self.0) }
-        }
-        #[inline(always)]
-        unsafe fn load(from: *const f64) -> Self {
-            // SAFETY: the caller vouches for the address; AVX as above
-            Self(unsafe { _mm256_load_pd(from) })
-        }
-        #[inline(always)]
-        unsafe fn store(self, to: *mut f64) {
-            // SAFETY: the caller vouches for the address; AVX as above
-            unsafe { _mm256_store_pd(to, self.0) }
-        }
-        #[inline(always)]
-        fn add(self, other: Self) -> Self {
-            // SAFETY: AVX as above
-            Self(unsafe { _mm256_add_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn mul(self, other: Self) -> Self {
-            // SAFETY: AVX as above
-            Self(unsafe { _mm256_mul_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn mul_add(self, b: Self, c: Self) -> Self {
-            // SAFETY: FMA as above
-            Self(unsafe { _mm256_fmadd_pd(self.0, b.0, c.0) })
-        }
-    }
-}
+mod avx;

@@ -1,6 +1,7 @@
 //! The explicit solver. It knows bodies, a grid and time; no files and no names.
 
 mod disjoint;
+mod frame;
 mod integrate;
 mod kernels;
 pub mod lane;
@@ -21,6 +22,7 @@ pub use mpm::{Mpm, Setup};
 pub use time_step::{Limit, TimeStep};
 
 use crate::state::State;
+use crate::totals::Totals;
 
 /// A method that carries a state forward in time.
 pub trait Solver<const D: usize>: Send {
@@ -31,7 +33,7 @@ pub trait Solver<const D: usize>: Send {
     fn step(&mut self, state: &mut State<D>, dt: f64) -> Result<(), Fault>;
 
     /// The energies that the points hold now.
-    fn stored(&self, state: &State<D>) -> Stored;
+    fn stored(&self, totals: &[Totals<D>]) -> Stored;
 
     /// The account so far.
     fn ledger(&self) -> &Ledger<D>;

@@ -1,17 +1,19 @@
 //! The material point method: one step, as the algorithm box of a paper would print it.
 
+use super::frame;
 use super::integrate::{Constraint, GridStep};
 use super::kernels::Kernels;
 use super::ledger::{GridSums, Ledger, Stored};
 use super::loads::{Load, Loads};
 use super::sort::Scratch;
-use super::stencil::{Gathered, Sources};
+use super::stencil::{Gathered, Scattered, Sources, Wanted};
 use super::{Fault, Limit, Solver};
 use crate::boundary::Condition;
 use crate::grid::{Blocks, Geometry, Node, block_edge};
 use crate::math::{Sum, Vector, packed_len};
 use crate::scenario::Scheme;
-use crate::state::State;
+use crate::state::{Body, State};
+use crate::totals::{Totals, in_parts, largest_in_parts, present};
 
 /// Everything that a solver is told before a run.
 pub struct Setup<const D: usize> {
@@ -108,7 +110,7 @@ impl<const D: usize> Mpm<D> {
             ledger: Ledger::default(),
             needs_sort: true,
             parallel: setup.parallel,
-            wide: super::kernels::wide_instructions(),
+            wide: crate::real::wide_instructions(),
             last_dt: 0.0,
             wave_speed: 0.0,
             speed: 0.0,
@@ -196,7 +198,13 @@ impl<const D: usize> Mpm<D> {
             .map(|body| {
                 let p = &body.particles;
                 // a law that softens keeps the step of its undeformed state: it may stiffen again within a step
-                let stiffness = body.material.max_stiffness(0..p.len(), &p.present());
+                let stiffness = largest_in_parts(p.len(), |part| {
+                    if p.is_total() {
+                        return frame::max_stiffness(body, part);
+                    }
+                    let present = present(p, part.clone());
+                    body.material.max_stiffness(part, &present)
+                });
                 let reference = body.material.reference_stiffness();
                 let stiffness = if stiffness < reference {
                     reference
@@ -234,7 +242,8 @@ impl<const D: usize> Mpm<D> {
 impl<const D: usize> Solver<D> for Mpm<D> {
     fn start(&mut self, state: &mut State<D>) -> Result<(), Fault> {
         self.sort(state)?;
-        let stored = self.stored(state);
+        let totals: Vec<_> = state.bodies.iter().map(Body::totals).collect();
+        let stored = self.stored(&totals);
         self.ledger.open(stored, self.boundaries.len());
         self.speed = state
             .bodies
@@ -251,25 +260,25 @@ impl<const D: usize> Solver<D> for Mpm<D> {
         self.clear_grid();
         match self.scheme {
             Scheme::UpdateStressFirst => {
-                self.momenta_to_grid(state, dt);
+                self.points_to_grid(state, dt, Scattered::MOMENTUM);
                 self.second.copy_from_slice(&self.main);
                 self.second_velocities(state.time);
-                self.strain_points(state, dt, &self.sources());
-                self.forces_to_grid(state, dt);
+                self.grid_to_points(state, dt, Wanted::STRAIN, &self.sources());
+                self.points_to_grid(state, dt, Scattered::FORCE);
             }
-            _ => self.points_to_grid(state, dt),
+            _ => self.points_to_grid(state, dt, Scattered::ALL),
         }
         self.loads_to_grid(state, dt);
         let sums = self.grid_step(state, dt);
         let sources = self.sources();
         let gathered = match self.scheme {
-            Scheme::UpdateStressFirst => self.move_points(state, dt, &sources),
-            Scheme::UpdateStressLast => self.move_and_strain_points(state, dt, &sources),
+            Scheme::UpdateStressFirst => self.grid_to_points(state, dt, Wanted::MOTION, &sources),
+            Scheme::UpdateStressLast => self.grid_to_points(state, dt, Wanted::ALL, &sources),
             Scheme::ModifiedUpdateStressLast => {
-                let gathered = self.accelerate_points(state, dt, &sources);
-                self.momenta_to_grid_again(state, dt);
+                let gathered = self.exchange(state, dt, &sources);
                 self.second_velocities(state.time + dt);
-                gathered.and(self.move_points_and_strain_by_second(state, dt, &sources))
+                let rest = Wanted::POSITION_AND_STRAIN;
+                gathered.and(self.grid_to_points(state, dt, rest, &sources))
             }
         };
         self.ledger.book(&sums, gathered.kinetic);
@@ -287,11 +296,10 @@ impl<const D: usize> Solver<D> for Mpm<D> {
         Ok(())
     }
 
-    fn stored(&self, state: &State<D>) -> Stored {
+    fn stored(&self, totals: &[Totals<D>]) -> Stored {
         let (mut kinetic, mut elastic, mut potential) =
             (Sum::default(), Sum::default(), Sum::default());
-        for body in &state.bodies {
-            let totals = body.totals();
+        for totals in totals {
             kinetic.add(totals.kinetic);
             elastic.add(totals.elastic);
             potential.add(-totals.mass * self.gravity.dot(&totals.position));
@@ -322,21 +330,40 @@ impl<const D: usize> Solver<D> for Mpm<D> {
             2 => &[(0, 1)],
             _ => &[(1, 2), (2, 0), (0, 1)],
         };
-        let spin = |&(a, b): &(usize, usize)| {
-            let mut sum = Sum::default();
-            for i in 0..p.len() {
+        let parts = in_parts(p.len(), |part| {
+            let mut sums = [Sum::default(); 3];
+            for i in part {
                 let (x, v) = (&p.position[i], &p.velocity[i]);
-                sum.add(p.mass[i] * (x[a] * v[b] - x[b] * v[a]));
+                for (sum, &(a, b)) in sums.iter_mut().zip(pairs) {
+                    sum.add(p.mass[i] * (x[a] * v[b] - x[b] * v[a]));
+                }
                 if let Some(affine) = p.affine.get(i) {
-                    let cells = self.geometry.in_cells(x, 1.0 / self.geometry.cell_size);
+                    let place = &p.grid_position()[i];
+                    let cells = self.geometry.in_cells(place, 1.0 / self.geometry.cell_size);
                     let inertia = self.kernels.inertia(body, &cells, &self.geometry.cells);
                     let mass = p.mass[i] * self.geometry.cell_size.powi(2);
-                    sum.add(mass * (inertia[a] * affine[(b, a)] - inertia[b] * affine[(a, b)]));
+                    // Σ N_i F (X_i − X) × C (X_i − X), with F = I where the grid is that of the present positions
+                    let own = |a: usize, b: usize| match p.deformation_gradient.get(i) {
+                        Some(f) => (0..D)
+                            .map(|c| f[(a, c)] * inertia[c] * affine[(b, c)])
+                            .sum(),
+                        None => inertia[a] * affine[(b, a)],
+                    };
+                    for (sum, &(a, b)) in sums.iter_mut().zip(pairs) {
+                        let spin: f64 = own(a, b) - own(b, a);
+                        sum.add(mass * spin);
+                    }
                 }
             }
-            sum.value()
-        };
-        pairs.iter().map(spin).collect()
+            sums
+        });
+        let mut sums = [Sum::default(); 3];
+        for part in &parts {
+            for (sum, part) in sums.iter_mut().zip(part) {
+                sum.add_sum(part);
+            }
+        }
+        sums[..pairs.len()].iter().map(Sum::value).collect()
     }
 
     fn stored_nodes(&self) -> usize {

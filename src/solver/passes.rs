@@ -1,6 +1,8 @@
 //! Passes over the points, block by block: on one thread or several, with wide instructions or without, always with the same
 //! order of additions at every node.
 
+use super::disjoint::Disjoint;
+use super::frame;
 use super::kernels::Context;
 use super::mpm::Mpm;
 use super::stencil::{CHUNK, Columns, Gathered, Rates, Reach, Scattered, Sources, Tile, Wanted};
@@ -83,107 +85,67 @@ impl<const D: usize> Mpm<D> {
         }
     }
 
-    /// Momenta, masses and internal forces.
-    pub(super) fn points_to_grid(&mut self, state: &mut State<D>, dt: f64) {
-        let (main, force) = (
-            Target(self.main.as_mut_ptr()),
-            Target(self.change.as_mut_ptr()),
-        );
-        self.scatter_pass(
-            state,
-            dt,
-            Scattered {
-                momentum: true,
-                force: true,
-            },
-            main,
-            force,
-        );
-    }
-
-    /// Momenta and masses.
-    pub(super) fn momenta_to_grid(&mut self, state: &mut State<D>, dt: f64) {
-        let (main, force) = (
-            Target(self.main.as_mut_ptr()),
-            Target(self.change.as_mut_ptr()),
-        );
-        self.scatter_pass(
-            state,
-            dt,
-            Scattered {
-                momentum: true,
-                force: false,
-            },
-            main,
-            force,
-        );
-    }
-
-    /// Internal forces.
-    pub(super) fn forces_to_grid(&mut self, state: &mut State<D>, dt: f64) {
-        let (main, force) = (
-            Target(self.main.as_mut_ptr()),
-            Target(self.change.as_mut_ptr()),
-        );
-        self.scatter_pass(
-            state,
-            dt,
-            Scattered {
-                momentum: false,
-                force: true,
-            },
-            main,
-            force,
-        );
-    }
-
-    /// Momenta and masses, into the second array.
-    pub(super) fn momenta_to_grid_again(&mut self, state: &mut State<D>, dt: f64) {
-        clear(&mut self.second, &self.blocks.rows, self.parallel);
-        let (second, force) = (
-            Target(self.second.as_mut_ptr()),
-            Target(self.change.as_mut_ptr()),
-        );
-        self.scatter_pass(
-            state,
-            dt,
-            Scattered {
-                momentum: true,
-                force: false,
-            },
-            second,
-            force,
-        );
-    }
-
-    fn scatter_pass(
-        &self,
-        state: &mut State<D>,
-        dt: f64,
-        what: Scattered,
-        main: Target,
-        force: Target,
-    ) {
+    /// What points give to the grid.
+    pub(super) fn points_to_grid(&mut self, state: &mut State<D>, dt: f64, what: Scattered) {
+        let main = Target(self.main.as_mut_ptr());
+        let force = Target(self.change.as_mut_ptr());
         for (index, body) in state.bodies.iter_mut().enumerate() {
             let columns = self.columns(index, body);
             let context = self.context(index, dt);
-            let own = &self.blocks.bodies[index];
-            let points_each = body.particles.len() / own.blocks.len().max(1);
-            for colour in &own.colours {
-                for_each(colour.len(), points_each, self.parallel, |i| {
-                    let block = &own.blocks[colour[i] as usize];
-                    // SAFETY: blocks of one colour share no node and no row; the tile of a block is stored
-                    unsafe {
-                        self.kernels.scatter(
-                            &context,
-                            &columns,
-                            block,
-                            what,
-                            [main.pointer(), force.pointer()],
-                        )
-                    };
-                });
-            }
+            self.for_each_block(index, body.particles.len(), |_, block| {
+                let targets = [main.pointer(), force.pointer()];
+                // SAFETY: blocks of one colour share no node and no row; the tile of a block is stored
+                unsafe {
+                    self.kernels
+                        .scatter(&context, &columns, block, what, targets)
+                };
+            });
+        }
+    }
+
+    /// New velocities of the points from `from`, and their momenta and masses to the second array.
+    pub(super) fn exchange(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
+        clear(&mut self.second, &self.blocks.rows, self.parallel);
+        let second = Target(self.second.as_mut_ptr());
+        let from = Readable(*from);
+        let mut results = std::mem::take(&mut self.gathered);
+        let mut total = Gathered::NONE;
+        for (index, body) in state.bodies.iter_mut().enumerate() {
+            let columns = self.columns(index, body);
+            let context = self.context(index, dt);
+            results.clear();
+            results.resize(self.blocks.bodies[index].blocks.len(), Gathered::NONE);
+            let result = Disjoint::new(&mut results);
+            self.for_each_block(index, body.particles.len(), |number, block| {
+                // SAFETY: as above; every block has a result of its own
+                unsafe {
+                    let second = second.pointer();
+                    let gathered =
+                        self.kernels
+                            .exchange(&context, &columns, block, from.sources(), second);
+                    result.slice(number..number + 1)[0] = gathered;
+                }
+            });
+            total = results.iter().fold(total, |sum, result| sum.and(*result));
+        }
+        self.gathered = results;
+        total
+    }
+
+    /// Calls `work` with the number of each block of a body and the block, one colour after the other.
+    fn for_each_block(
+        &self,
+        body: usize,
+        points: usize,
+        work: impl Fn(usize, &Block<D>) + Send + Sync,
+    ) {
+        let own = &self.blocks.bodies[body];
+        let points_each = points / own.blocks.len().max(1);
+        for colour in &own.colours {
+            for_each(colour.len(), points_each, self.parallel, |i| {
+                let number = colour[i] as usize;
+                work(number, &own.blocks[number]);
+            });
         }
     }
 
@@ -201,112 +163,30 @@ impl<const D: usize> Mpm<D> {
             let index = loads.body(load);
             let columns = self.columns(index, &mut state.bodies[index]);
             let context = self.context(index, dt);
-            let own = &self.blocks.bodies[index];
             let offset = loads.offset(load);
-            for colour in &own.colours {
-                for_each(colour.len(), POINTS_PER_TASK / 4, self.parallel, |i| {
-                    let block = &own.blocks[colour[i] as usize];
-                    let forces = loads.in_rows(load, block.points());
-                    if !forces.is_empty() {
-                        // SAFETY: as for the points' momenta
-                        unsafe {
-                            self.kernels.scatter_forces(
-                                &context,
-                                &columns,
-                                block,
-                                external.pointer(),
-                                &offset,
-                                forces,
-                            )
-                        };
-                    }
-                });
-            }
+            let points = state.bodies[index].particles.len();
+            self.for_each_block(index, points, |_, block| {
+                let forces = loads.in_rows(load, block.points());
+                if !forces.is_empty() {
+                    // SAFETY: as for the points' momenta
+                    unsafe {
+                        self.kernels.scatter_forces(
+                            &context,
+                            &columns,
+                            block,
+                            external.pointer(),
+                            &offset,
+                            forces,
+                        )
+                    };
+                }
+            });
         }
         self.loads = loads;
     }
 
-    /// Update stress last: velocities, positions and stresses from the velocities at the end of the step.
-    pub(super) fn move_and_strain_points(
-        &mut self,
-        state: &mut State<D>,
-        dt: f64,
-        from: &Sources,
-    ) -> Gathered {
-        let what = Wanted {
-            velocity: true,
-            position: true,
-            rate: true,
-            same: true,
-        };
-        self.gather_pass(state, dt, what, from)
-    }
-
-    /// Velocities and positions.
-    pub(super) fn move_points(
-        &mut self,
-        state: &mut State<D>,
-        dt: f64,
-        from: &Sources,
-    ) -> Gathered {
-        let what = Wanted {
-            velocity: true,
-            position: true,
-            rate: false,
-            same: false,
-        };
-        self.gather_pass(state, dt, what, from)
-    }
-
-    /// Velocities.
-    pub(super) fn accelerate_points(
-        &mut self,
-        state: &mut State<D>,
-        dt: f64,
-        from: &Sources,
-    ) -> Gathered {
-        let what = Wanted {
-            velocity: true,
-            position: false,
-            rate: false,
-            same: false,
-        };
-        self.gather_pass(state, dt, what, from)
-    }
-
-    /// Stresses from the second velocities.
-    pub(super) fn strain_points(
-        &mut self,
-        state: &mut State<D>,
-        dt: f64,
-        from: &Sources,
-    ) -> Gathered {
-        let what = Wanted {
-            velocity: false,
-            position: false,
-            rate: true,
-            same: false,
-        };
-        self.gather_pass(state, dt, what, from)
-    }
-
-    /// Positions from the velocities at the end of the step, stresses from the second velocities.
-    pub(super) fn move_points_and_strain_by_second(
-        &mut self,
-        state: &mut State<D>,
-        dt: f64,
-        from: &Sources,
-    ) -> Gathered {
-        let what = Wanted {
-            velocity: false,
-            position: true,
-            rate: true,
-            same: false,
-        };
-        self.gather_pass(state, dt, what, from)
-    }
-
-    fn gather_pass(
+    /// What points take from the grid.
+    pub(super) fn grid_to_points(
         &mut self,
         state: &mut State<D>,
         dt: f64,
@@ -366,7 +246,7 @@ impl<const D: usize> Mpm<D> {
     ) -> Gathered {
         let tile = Tile::new(block, self.edge, self.kernels.nodes());
         let reach = Reach::new(block.origin, self.edge, self.geometry.cells, *shift);
-        let mut rates = Rates::zeros();
+        let mut rates = Rates::default();
         let mut total = Gathered::NONE;
         let rows = block.points();
         for first in rows.clone().step_by(CHUNK) {
@@ -387,16 +267,28 @@ impl<const D: usize> Mpm<D> {
             };
             total = total.and(gathered);
             if what.rate {
-                // SAFETY: these rows belong to this block alone
+                // SAFETY: these rows belong to this block alone, and their gradients were just gathered
                 unsafe {
+                    if columns.is_total() {
+                        let (f, _) = columns.reference_columns(first, count);
+                        frame::deform(f, rates.of_mut(count), context.dt, context.wide);
+                    }
                     let (plane, hoop, hoop_stretches) = columns.law_columns(first, count);
+                    let (rates, hoop_rates) = rates.of(count, hoop_stretches.len());
                     let increments = Increments {
-                        rates: &rates.gradient[..count],
-                        hoop_rates: &rates.hoop[..hoop_stretches.len()],
+                        rates,
+                        hoop_rates,
                         hoop_stretches,
                         dt: context.dt,
+                        wide: context.wide,
                     };
-                    material.update(first..first + count, StressMut { plane, hoop }, &increments);
+                    let stress = StressMut { plane, hoop };
+                    material.update(first..end, stress, &increments);
+                    if columns.is_total() {
+                        let (f, p) = columns.reference_columns(first, count);
+                        let (stress, _, _) = columns.law_columns(first, count);
+                        frame::pull_back(f, stress, p, context.wide);
+                    }
                 }
             }
         }

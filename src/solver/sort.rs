@@ -7,21 +7,58 @@ use super::{Fault, Place};
 use crate::grid::{Geometry, Occupied, Row};
 use crate::math::Vector;
 use crate::reorder;
-use crate::state::{Body, State};
+use crate::state::{Body, Particles, State};
+use rayon::prelude::*;
 
 /// Memory that a sort needs, kept from one to the next.
 #[derive(Default)]
 pub struct Scratch<const D: usize> {
-    /// Block of each point, later the order of the points.
+    /// Block of each point, later the row that it goes to.
     slots: Vec<u32>,
+    /// The rows in the order in which they are moved, see [`reorder::cycles`].
     order: Vec<u32>,
     leaders: Vec<u32>,
-    seen: Vec<bool>,
-    starts: Vec<u32>,
+    /// The distinct blocks.
     keys: Vec<[i32; D]>,
+    pieces: Vec<Piece<D>>,
     /// For each body, its blocks and the rows in each.
     occupied: Vec<Vec<Occupied<D>>>,
 }
+
+/// What one thread finds out about consecutive points.
+#[derive(Default)]
+struct Piece<const D: usize> {
+    /// The blocks that they are in.
+    keys: Vec<[i32; D]>,
+    /// How many may be noted before the list is tidied.
+    limit: usize,
+    /// For each block how many of them are in it, later the row that the next one goes to.
+    starts: Vec<u32>,
+    /// The first that has no place in the grid.
+    lost: Option<usize>,
+}
+
+impl<const D: usize> Piece<D> {
+    /// Notes a block. The list is tidied whenever it has doubled, so that points in any order make it no longer than that.
+    fn note(&mut self, key: [i32; D]) {
+        if self.keys.last() == Some(&key) {
+            return;
+        }
+        if self.keys.len() >= self.limit.max(PIECE) {
+            self.tidy();
+            self.limit = 2 * self.keys.len();
+        }
+        self.keys.push(key);
+    }
+
+    fn tidy(&mut self) {
+        self.keys.sort_unstable();
+        self.keys.dedup();
+    }
+}
+
+/// Points from which on sorting them is shared among threads.
+const PIECE: usize = 1 << 13;
 
 impl<const D: usize> Mpm<D> {
     /// Sorts all bodies by block and lays the grid out around them.
@@ -62,6 +99,9 @@ impl<const D: usize> Mpm<D> {
     }
 
     /// Sorts one body, or names the row of a point that has no place in the grid.
+    ///
+    /// A counting sort by block. Pieces of the body are looked at by several threads; where each of their points goes follows
+    /// from how many come before it, so that the result does not depend on the pieces.
     fn sort_body(
         &self,
         index: usize,
@@ -72,66 +112,146 @@ impl<const D: usize> Mpm<D> {
             slots,
             order,
             leaders,
-            seen,
-            starts,
             keys,
+            pieces,
             occupied,
         } = scratch;
-        let blocks = &mut occupied[index];
         let count = body.particles.len();
+        let threads = if self.parallel {
+            rayon::current_num_threads()
+        } else {
+            1
+        };
+        let size = count.div_ceil(threads).max(PIECE);
+        pieces.resize_with(count.div_ceil(size).max(pieces.len()), Piece::default);
+        let pieces = &mut pieces[..count.div_ceil(size)];
+        self.find_blocks(index, &body.particles, size, pieces)?;
         keys.clear();
-        for (row, position) in body.particles.position.iter().enumerate() {
-            let x = self
-                .geometry
-                .in_cells(position, 1.0 / self.geometry.cell_size);
-            // false too if x is not a number
-            let inside = (0..D).all(|a| x[a] >= 0.0 && x[a] <= f64::from(self.geometry.cells[a]));
-            let finite = body.particles.velocity[row].iter().all(|v| v.is_finite());
-            if !(inside && finite) {
-                return Err(row);
-            }
-            let key = self.block_of(index, position);
-            if keys.last() != Some(&key) {
-                keys.push(key);
-            }
+        for piece in &mut *pieces {
+            keys.extend_from_slice(&piece.keys);
         }
         keys.sort_unstable();
         keys.dedup();
-        starts.clear();
-        starts.resize(keys.len() + 1, 0);
-        slots.clear();
-        let mut slot = 0;
-        for position in &body.particles.position {
-            let key = self.block_of(index, position);
-            if keys[slot] != key {
-                slot = keys.partition_point(|other| other < &key);
-            }
-            slots.push(slot as u32);
-            starts[slot + 1] += 1;
-        }
-        for slot in 0..keys.len() {
-            starts[slot + 1] += starts[slot];
-        }
+        slots.resize(count, 0);
+        self.count_blocks(index, &body.particles, size, keys, pieces, slots);
+        let blocks = &mut occupied[index];
         blocks.clear();
-        blocks.extend(
-            keys.iter()
-                .enumerate()
-                .map(|(slot, key)| (*key, (starts[slot], starts[slot + 1]))),
-        );
-        let sorted = slots.is_sorted();
-        if !sorted {
-            order.clear();
-            order.resize(count, 0);
-            for (row, slot) in slots.iter().enumerate() {
-                let target = &mut starts[*slot as usize];
-                order[*target as usize] = row as u32;
+        let mut next = 0;
+        for (slot, key) in keys.iter().enumerate() {
+            let first = next;
+            for piece in &mut *pieces {
+                let own = piece.starts[slot];
+                piece.starts[slot] = next;
+                next += own;
+            }
+            blocks.push((*key, (first, next)));
+        }
+        let aim = |(piece, slots): (&mut Piece<D>, &mut [u32])| {
+            for slot in slots {
+                let target = &mut piece.starts[*slot as usize];
+                *slot = *target;
                 *target += 1;
             }
-            reorder::cycle_leaders(order, leaders, seen);
-            body.particles.permute(order, leaders, self.parallel);
-            body.material.permute(order, leaders);
+        };
+        if pieces.len() > 1 {
+            let pieces = pieces.par_iter_mut().zip(slots.par_chunks_mut(size));
+            pieces.for_each(aim);
+        } else {
+            pieces.iter_mut().zip(slots.chunks_mut(size)).for_each(aim);
+        }
+        // room for all, or a later sort that moves more points would ask for memory
+        order.reserve_exact(count.saturating_sub(order.len()));
+        reorder::cycles(slots, order, leaders);
+        if !order.is_empty() {
+            let (particles, material) = (&mut body.particles, &mut body.material);
+            if self.parallel {
+                rayon::join(
+                    || particles.permute(order, leaders, true),
+                    || material.permute(order, leaders),
+                );
+            } else {
+                particles.permute(order, leaders, false);
+                material.permute(order, leaders);
+            }
         }
         Ok(())
+    }
+
+    /// Collects the blocks of each piece, or names the first row whose point has no place in the grid.
+    fn find_blocks(
+        &self,
+        index: usize,
+        particles: &Particles<D>,
+        size: usize,
+        pieces: &mut [Piece<D>],
+    ) -> Result<(), usize> {
+        let positions = particles.grid_position();
+        let look = |(number, piece): (usize, &mut Piece<D>)| {
+            piece.keys.clear();
+            piece.lost = None;
+            for row in number * size..((number + 1) * size).min(particles.len()) {
+                let position = &positions[row];
+                let x = self
+                    .geometry
+                    .in_cells(position, 1.0 / self.geometry.cell_size);
+                // false too if x is not a number
+                let inside =
+                    (0..D).all(|a| x[a] >= 0.0 && x[a] <= f64::from(self.geometry.cells[a]));
+                // where points stay in the grid, their present positions say nothing else
+                let motion = particles.velocity[row].iter();
+                let finite = motion
+                    .chain(&particles.position[row])
+                    .all(|x| x.is_finite());
+                if !(inside && finite) {
+                    piece.lost = Some(row);
+                    return;
+                }
+                piece.note(self.block_of(index, position));
+            }
+            piece.tidy();
+        };
+        if pieces.len() > 1 {
+            pieces.par_iter_mut().enumerate().for_each(look);
+        } else {
+            pieces.iter_mut().enumerate().for_each(look);
+        }
+        pieces
+            .iter()
+            .find_map(|piece| piece.lost)
+            .map_or(Ok(()), Err)
+    }
+
+    /// Finds the slot of each point's block among `keys` and counts the points of each piece in it.
+    fn count_blocks(
+        &self,
+        index: usize,
+        particles: &Particles<D>,
+        size: usize,
+        keys: &[[i32; D]],
+        pieces: &mut [Piece<D>],
+        slots: &mut [u32],
+    ) {
+        let count = |((piece, slots), positions): ((&mut Piece<D>, &mut [u32]), &[Vector<D>])| {
+            piece.starts.clear();
+            piece.starts.resize(keys.len(), 0);
+            let mut slot = 0;
+            for (target, position) in slots.iter_mut().zip(positions) {
+                let key = self.block_of(index, position);
+                if keys[slot] != key {
+                    slot = keys.partition_point(|other| other < &key);
+                }
+                *target = slot as u32;
+                piece.starts[slot] += 1;
+            }
+        };
+        let positions = particles.grid_position();
+        if pieces.len() > 1 {
+            let pieces = pieces.par_iter_mut().zip(slots.par_chunks_mut(size));
+            pieces.zip(positions.par_chunks(size)).for_each(count);
+        } else {
+            let pieces = pieces.iter_mut().zip(slots.chunks_mut(size));
+            pieces.zip(positions.chunks(size)).for_each(count);
+        }
     }
 
     /// Makes room for the nodes and finds those that are held.

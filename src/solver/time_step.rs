@@ -5,9 +5,10 @@ use crate::scenario::StepRule;
 /// What limits the time step at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
-    /// Fastest elastic wave in any point, m/s.
+    /// Fastest elastic wave in any point, m/s, as it travels through the grid.
     pub wave_speed: f64,
-    /// Fastest point, m/s.
+    /// Fastest point, m/s. It counts where points stay in the grid as well: velocities that differ by v from node to node strain
+    /// them by v Δt/h.
     pub particle_speed: f64,
     /// Edge of a cell, m.
     pub cell_size: f64,

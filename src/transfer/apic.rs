@@ -2,6 +2,7 @@
 
 use super::Transfer;
 use crate::input::{Parameters, Reader};
+use crate::real::Real;
 
 /// v = Σ N_i v_i, and C = B D⁻¹ with B = Σ N_i v_i (x_i − x)ᵀ, D = Σ N_i (x_i − x)(x_i − x)ᵀ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +23,7 @@ impl Transfer for Apic {
     }
 
     #[inline(always)]
-    fn velocity(&self, _old: f64, new: f64, _change: f64) -> f64 {
+    fn velocity<R: Real>(&self, _old: R, new: R, _change: R) -> R {
         new
     }
 }

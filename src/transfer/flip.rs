@@ -2,6 +2,7 @@
 
 use super::Transfer;
 use crate::input::{Bound, Parameters, Reader, Unit};
+use crate::real::Real;
 
 /// v ← ratio (v + Σ N_i Δv_i) + (1 − ratio) Σ N_i v_i.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +26,7 @@ impl Transfer for Flip {
     }
 
     #[inline(always)]
-    fn velocity(&self, old: f64, new: f64, change: f64) -> f64 {
-        self.ratio * (old + change) + (1.0 - self.ratio) * new
+    fn velocity<R: Real>(&self, old: R, new: R, change: R) -> R {
+        R::splat(self.ratio) * (old + change) + R::splat(1.0 - self.ratio) * new
     }
 }

@@ -3,6 +3,7 @@
 //! A transfer knows one velocity component of one particle. Loops, weights and storage belong to the solver.
 
 use crate::input::{Parameters, Reader};
+use crate::real::Real;
 
 /// What a transfer makes of the velocities that the grid offers to one particle.
 pub trait Transfer: Copy + Send + Sync + 'static {
@@ -11,11 +12,18 @@ pub trait Transfer: Copy + Send + Sync + 'static {
     /// Whether the *change* of the grid velocity is used, so that forces and momenta need separate storage on the grid.
     const CHANGE: bool;
 
+    /// Whether C is the velocity gradient as well: forces and strains by moving least squares instead of the slopes of the basis.
+    const MOVING_LEAST_SQUARES: bool = false;
+
+    /// Whether C is the velocity gradient by the slopes of the basis.
+    const TAYLOR: bool = false;
+
     /// The share of the particle's own velocity that survives, between 0 (PIC, APIC) and 1 (FLIP).
     fn ratio(&self) -> f64;
 
     /// A velocity component after the step, from the `old` one, the grid's velocity `new` and the grid's `change` at the particle.
-    fn velocity(&self, old: f64, new: f64, change: f64) -> f64;
+    /// Four points are computed together: write it without branches.
+    fn velocity<R: Real>(&self, old: R, new: R, change: R) -> R;
 }
 
 /// Something to be done with a transfer whose type is not known before the run.
@@ -61,4 +69,6 @@ transfers! {
     "pic" => pic::Pic,
     "flip" => flip::Flip,
     "apic" => apic::Apic,
+    "mls_apic" => mls_apic::MlsApic,
+    "tpic" => tpic::Tpic,
 }

@@ -2,6 +2,7 @@
 
 use super::Transfer;
 use crate::input::{Parameters, Reader};
+use crate::real::Real;
 
 /// v = Σ N_i v_i.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +23,7 @@ impl Transfer for Pic {
     }
 
     #[inline(always)]
-    fn velocity(&self, _old: f64, new: f64, _change: f64) -> f64 {
+    fn velocity<R: Real>(&self, _old: R, new: R, _change: R) -> R {
         new
     }
 }

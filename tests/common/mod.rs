@@ -12,6 +12,7 @@ pub struct Variant {
     /// A value of TOML.
     pub transfer: String,
     pub update: &'static str,
+    pub frame: &'static str,
 }
 
 impl Variant {
@@ -20,17 +21,32 @@ impl Variant {
             basis,
             transfer,
             update,
+            frame,
         } = self;
-        format!("[method]\nbasis = \"{basis}\"\ntransfer = {transfer}\nupdate = \"{update}\"\n")
+        format!(
+            "[method]\nbasis = \"{basis}\"\ntransfer = {transfer}\nupdate = \"{update}\"\nframe = \"{frame}\"\n"
+        )
     }
 
     pub fn is_apic(&self) -> bool {
         self.transfer.contains("apic")
     }
+
+    pub fn is_total(&self) -> bool {
+        self.frame == "total"
+    }
 }
 
-/// Every combination of methods, and FLIP with a share of PIC.
+/// Every combination of methods, and FLIP with a share of PIC, in both frames.
 pub fn variants() -> Vec<Variant> {
+    ["updated", "total"]
+        .into_iter()
+        .flat_map(variants_in)
+        .collect()
+}
+
+/// Those of one frame.
+pub fn variants_in(frame: &'static str) -> Vec<Variant> {
     let transfers = TransferChoice::NAMES
         .iter()
         .map(|name| format!("\"{name}\""));
@@ -45,6 +61,7 @@ pub fn variants() -> Vec<Variant> {
                     basis,
                     transfer: transfer.clone(),
                     update,
+                    frame,
                 });
             }
         }

@@ -1,18 +1,15 @@
 //! What single laws promise, and how blocks of points are handled.
 
-use super::point::{Numbers, Point};
+use super::point::{Point, Values, inverse};
 use super::*;
-use crate::math::{inverse, pack};
+use crate::math::pack;
 
 #[test]
 fn jaumann_shear_stress_is_a_sine_of_the_shear_to_second_order_in_the_step() {
     let (_, shear) = ELASTICITY.lame();
     let mut f = Matrix::<2>::identity();
     f[(0, 1)] = 1.0;
-    for rate in [
-        linear_elastic::Rate::Cauchy,
-        linear_elastic::Rate::Kirchhoff,
-    ] {
+    for rate in [StressRate::Cauchy, StressRate::Kirchhoff] {
         let law = LawChoice::LinearElastic(LinearElastic {
             elasticity: ELASTICITY,
             rate,
@@ -84,8 +81,10 @@ fn blocks_of_points_may_be_updated_from_several_threads() {
         elasticity: ELASTICITY,
     });
     let count = 1000;
-    let mut numbers = Numbers(9);
-    let rates: Vec<Matrix<2>> = (0..count).map(|_| numbers.matrix(0.1)).collect();
+    let mut numbers = Values(9);
+    let rates: Vec<Rate<2>> = (0..count)
+        .map(|_| Rate::from(numbers.matrix(0.1)))
+        .collect();
     let run = |blocks: usize| {
         let points = law.points::<2>(Plane::Stress, count);
         let mut stress = vec![0.0; 3 * count];
@@ -99,6 +98,7 @@ fn blocks_of_points_may_be_updated_from_several_threads() {
                         hoop_rates: &[],
                         hoop_stretches: &[],
                         dt: 1.0,
+                        wide: true,
                     };
                     let stress = StressMut {
                         plane,
@@ -125,13 +125,16 @@ fn reordered_points_keep_their_memory() {
     });
     let count = 10;
     let mut points = law.points::<1>(Plane::Strain, count);
-    let rates: Vec<Matrix<1>> = (0..count).map(|i| Matrix::from_element(i as f64)).collect();
+    let rates: Vec<Rate<1>> = (0..count)
+        .map(|i| Rate::from(Matrix::from_element(i as f64)))
+        .collect();
     let mut stress = vec![0.0; count];
     let increments = Increments {
         rates: &rates,
         hoop_rates: &[],
         hoop_stretches: &[],
         dt: 1.0,
+        wide: true,
     };
     let all = StressMut {
         plane: &mut stress,
@@ -140,12 +143,12 @@ fn reordered_points_keep_their_memory() {
     // SAFETY: nobody else knows these points.
     unsafe { points.update(0..count, all, &increments) };
     let copy = points.clone();
-    let order = [3, 1, 0, 2, 9, 8, 7, 6, 5, 4];
-    let (mut leaders, mut seen) = (Vec::new(), Vec::new());
-    crate::reorder::cycle_leaders(&order, &mut leaders, &mut seen);
+    let targets = [3_u32, 1, 0, 2, 9, 8, 7, 6, 5, 4];
+    let (mut order, mut leaders) = (Vec::new(), Vec::new());
+    crate::reorder::cycles(&mut targets.clone(), &mut order, &mut leaders);
     points.permute(&order, &leaders);
-    for (i, &from) in order.iter().enumerate() {
-        assert_eq!(points.volume_ratio(i, 1.0), 1.0 + f64::from(from));
+    for (i, &to) in targets.iter().enumerate() {
+        assert_eq!(points.volume_ratio(to as usize, 1.0), 1.0 + i as f64);
     }
     assert_eq!(copy.volume_ratio(0, 1.0), 1.0);
     assert_eq!((copy.count(), copy.bytes_per_point()), (count, 8));

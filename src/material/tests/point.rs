@@ -1,7 +1,21 @@
 //! One material point without a grid, and numbers to drive it.
 
 use crate::material::*;
-use crate::math::{inverse, packed_len, unpack};
+use crate::math::{Matrix, packed_len, unpack};
+use crate::tensor::Tensor;
+
+pub(super) fn determinant<const D: usize>(m: &Matrix<D>) -> f64 {
+    Tensor::from(*m).determinant()
+}
+
+pub(super) fn inverse<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
+    Tensor::from(*m).inverse().into()
+}
+
+pub(super) fn symmetric_eigen<const D: usize>(m: &Matrix<D>) -> ([f64; D], Matrix<D>) {
+    let (values, vectors) = Tensor::from(*m).symmetric_eigen();
+    (values, vectors.into())
+}
 
 /// A material point that goes where a test sends it.
 #[derive(Clone)]
@@ -32,10 +46,11 @@ impl<const D: usize> Point<D> {
         self.hoop_stretch *= 1.0 + hoop;
         let hoops = self.hoop.len();
         let increments = Increments {
-            rates: &[increment / dt],
+            rates: &[(increment / dt).into()],
             hoop_rates: &[hoop / dt][..hoops],
             hoop_stretches: &[self.hoop_stretch][..hoops],
             dt,
+            wide: true,
         };
         let stress = StressMut {
             plane: &mut self.stress,
@@ -90,10 +105,10 @@ impl<const D: usize> Point<D> {
     }
 }
 
-/// Numbers between −1 and 1 without a pattern, the same in every run.
-pub(super) struct Numbers(pub(super) u64);
+/// Values between −1 and 1 without a pattern, the same in every run.
+pub(super) struct Values(pub(super) u64);
 
-impl Numbers {
+impl Values {
     pub(super) fn next(&mut self) -> f64 {
         self.0 = self
             .0

@@ -10,7 +10,7 @@ mod numerics;
 mod records;
 mod size;
 
-use super::{BodySpec, GridSpec, Region, Scenario};
+use super::{BodySpec, GridSpec, ReferenceFrame, Region, Scenario};
 use crate::boundary::Side;
 use crate::input::{Document, Reader, Unit, nearest};
 use crate::material::Plane;
@@ -68,7 +68,10 @@ pub(super) fn scenario(
     let materials = materials::materials(&mut root, document, frame, warnings);
     let bodies = bodies::bodies(&mut root, document, frame, grid.as_ref(), &materials);
     if let (Some(grid), Some(mut reader)) = (&grid, grid_reader) {
-        size::check(&mut reader, &bodies, grid, frame);
+        let total = method
+            .as_ref()
+            .is_some_and(|m| m.frame == ReferenceFrame::Total);
+        size::check(&mut reader, &bodies, grid, frame, total);
         reader.finish();
     }
     let basis = method.as_ref().map(|method| method.basis);
@@ -87,6 +90,9 @@ pub(super) fn scenario(
     let probes = records::probes(&mut root, frame, grid.as_ref(), &bodies, warnings);
     root.finish();
     materials::warn_of_unused(&materials, &bodies, warnings);
+    if let (Some(method), Some(boundaries)) = (&method, &boundaries) {
+        numerics::warn_of_frame(method, &bodies, boundaries, warnings);
+    }
 
     let (end, step) = time?;
     let materials = materials

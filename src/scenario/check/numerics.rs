@@ -1,10 +1,11 @@
 //! Time, grid and method.
 
-use super::{AXES, Frame, shown};
+use super::{AXES, CountedBody, Frame, Named, shown};
 use crate::basis::BasisChoice;
+use crate::boundary::ConditionChoice;
 use crate::input::{Bound, Reader, Unit};
 use crate::material::Plane;
-use crate::scenario::{GridSpec, Method, Scheme, StepRule};
+use crate::scenario::{BoundarySpec, GridSpec, Method, ReferenceFrame, Scheme, StepRule};
 use crate::transfer::TransferChoice;
 
 /// More steps than this end with no computer.
@@ -173,13 +174,42 @@ pub(super) fn method(root: &mut Reader<'_>, warnings: &mut Vec<String>) -> Optio
     let method = read_method(root)?;
     let linear = matches!(method.basis, BasisChoice::Linear(_));
     let stable = method.update != Scheme::UpdateStressLast && !method.transfer.is_affine();
-    if linear && !stable {
+    // points that stay where they are in the grid cross no cells
+    if linear && !stable && method.frame == ReferenceFrame::Updated {
         let (transfer, update) = (method.transfer.name(), method.update.name());
         warnings.push(format!(
             "method: the linear basis with \"{transfer}\" and \"{update}\" blows up at any time step once points cross cells near a free surface; take transfer = \"flip\" with update = \"musl\", or basis = \"quadratic\""
         ));
     }
     Some(method)
+}
+
+/// Warns of what the total Lagrangian frame does not do: in it the grid goes with the bodies, so that it does not see where they
+/// are by now.
+pub(super) fn warn_of_frame(
+    method: &Method,
+    bodies: &[Named<CountedBody>],
+    boundaries: &[BoundarySpec],
+    warnings: &mut Vec<String>,
+) {
+    if method.frame == ReferenceFrame::Updated {
+        return;
+    }
+    if bodies.len() > 1 {
+        warnings.push(format!(
+            "method.frame: in the total frame the {} bodies never meet, and those that share grid nodes at the start are welded together there; use frame = \"updated\" for bodies that touch or part",
+            bodies.len()
+        ));
+    }
+    let walls = boundaries
+        .iter()
+        .filter(|boundary| matches!(boundary.condition, ConditionChoice::Wall(_)));
+    for wall in walls {
+        warnings.push(format!(
+            "method.frame: in the total frame the wall \"{}\" stops only what touches it at the start, and wherever that is by then; what comes from afar passes, what has left cannot come back; use frame = \"updated\" for impact",
+            wall.name
+        ));
+    }
 }
 
 fn read_method(root: &mut Reader<'_>) -> Option<Method> {
@@ -202,12 +232,7 @@ fn choices(reader: &mut Reader<'_>) -> Option<Method> {
         .name_or_table_or("transfer", TransferChoice::NAMES, "apic")
         .and_then(|(name, mut parameters)| TransferChoice::read(name, &mut parameters));
     let update = reader.choice("update", &["usf", "usl", "musl"], Some("usl"));
-    if reader.choice("frame", &["updated", "total"], Some("updated")) == Some("total") {
-        reader.problem(
-            "frame",
-            "the total Lagrangian frame is not available yet: use \"updated\"",
-        );
-    }
+    let frame = reader.choice("frame", &ReferenceFrame::NAMES, Some("updated"));
     let update = match update? {
         "usf" => Scheme::UpdateStressFirst,
         "usl" => Scheme::UpdateStressLast,
@@ -217,5 +242,9 @@ fn choices(reader: &mut Reader<'_>) -> Option<Method> {
         basis: basis?,
         transfer: transfer?,
         update,
+        frame: match frame? {
+            "total" => ReferenceFrame::Total,
+            _ => ReferenceFrame::Updated,
+        },
     })
 }

@@ -10,6 +10,8 @@ use crate::scenario::fill::Filling;
 const MOST_POINTS: f64 = (1_u64 << 31) as f64;
 /// About what a point takes with its stress, its law's memory, its share of the occupied grid and room to sort, by dimension.
 const BYTES_PER_POINT: [f64; 3] = [120.0, 220.0, 400.0];
+/// What the total Lagrangian frame adds: a position and two matrices.
+const BYTES_OF_REFERENCE: [f64; 3] = [24.0, 80.0, 168.0];
 
 /// Notes a problem if there are more points than can be numbered, stored or counted.
 pub(super) fn check(
@@ -17,6 +19,7 @@ pub(super) fn check(
     bodies: &[Named<CountedBody>],
     grid: &GridSpec,
     frame: Frame,
+    total: bool,
 ) {
     let mut points = 0.0;
     let mut uncountable = false;
@@ -28,7 +31,10 @@ pub(super) fn check(
             .map_or(filling.estimate(), |points| points as f64);
         uncountable |= counted.points.is_none() && filling.candidates() > MOST_CANDIDATES;
     }
-    let bytes = points * BYTES_PER_POINT[frame.dimension - 1];
+    let mut bytes = points * BYTES_PER_POINT[frame.dimension - 1];
+    if total {
+        bytes += points * BYTES_OF_REFERENCE[frame.dimension - 1];
+    }
     let remedy = "use larger cells or fewer points a cell";
     let available = available_memory();
     let message = if points > MOST_POINTS {

@@ -1,20 +1,31 @@
 //! The columns of a body's points, as threads share them.
 
 use crate::math::{Matrix, Vector, packed_len};
+use crate::solver::lane::Lane;
 use crate::state::Particles;
+
+/// How many points before their turn memory is asked for them.
+const AHEAD: usize = 16;
 
 /// The columns of a body's points, shared by threads that work on disjoint rows.
 #[derive(Clone, Copy)]
 pub struct Columns<const D: usize> {
+    /// x.
     pub(super) position: *mut Vector<D>,
+    /// Where the points stand in the grid: X in the total frame, else x, the same column as `position`.
+    place: *const Vector<D>,
     pub(super) velocity: *mut Vector<D>,
     pub(super) affine: *mut Matrix<D>,
     pub(super) mass: *const f64,
     pub(super) volume: *const f64,
     pub(super) stress: *mut f64,
+    deformation: *mut Matrix<D>,
+    pub(super) first_piola: *mut Matrix<D>,
     pub(super) hoop_stress: *mut f64,
     pub(super) hoop_stretch: *mut f64,
     pub(super) axisymmetric: bool,
+    /// Whether points stay where they are in the grid.
+    pub(super) total: bool,
 }
 
 // SAFETY: threads are given disjoint rows (module header)
@@ -32,16 +43,162 @@ impl<const D: usize> Columns<D> {
             particles.are_whole(count, affine),
             "the columns of a body were resized between two steps; points are added and removed before a run only"
         );
+        let total = particles.is_total();
+        let position = particles.position.as_mut_ptr();
         Self {
-            position: particles.position.as_mut_ptr(),
+            position,
+            place: if total {
+                particles.reference_position.as_ptr()
+            } else {
+                position.cast_const()
+            },
             velocity: particles.velocity.as_mut_ptr(),
             affine: particles.affine.as_mut_ptr(),
             mass: particles.mass.as_ptr(),
             volume: particles.initial_volume.as_ptr(),
             stress: particles.stress.as_mut_ptr(),
+            deformation: particles.deformation_gradient.as_mut_ptr(),
+            first_piola: particles.first_piola_stress.as_mut_ptr(),
             hoop_stress: particles.hoop_stress.as_mut_ptr(),
             hoop_stretch: particles.hoop_stretch.as_mut_ptr(),
             axisymmetric: !particles.hoop_stretch.is_empty(),
+            total,
+        }
+    }
+
+    /// Asks for what the points of the next groups bring to a pass: a column stops every 4 kB for the processor's own guess of
+    /// what comes next.
+    #[inline(always)]
+    pub(super) fn prefetch<L: Lane>(&self, first: usize, affine: bool, stress: bool) {
+        let p = first + AHEAD;
+        L::prefetch(self.place.wrapping_add(p).cast(), 4 * D);
+        L::prefetch(self.velocity.wrapping_add(p).cast(), 4 * D);
+        L::prefetch(self.mass.wrapping_add(p), 4);
+        if affine {
+            L::prefetch(self.affine.wrapping_add(p).cast(), 4 * D * D);
+        }
+        if stress {
+            L::prefetch(self.volume.wrapping_add(p), 4);
+            if self.total {
+                L::prefetch(self.first_piola.wrapping_add(p).cast(), 4 * D * D);
+            } else {
+                let width = packed_len(D);
+                L::prefetch(self.stress.wrapping_add(p * width), 4 * width);
+            }
+        }
+    }
+
+    /// Whether the shape functions are those of the reference configuration.
+    pub fn is_total(&self) -> bool {
+        self.total
+    }
+
+    /// Where `count` points from row `first` on stand in the grid, four at most, m; the last stands for those that there are
+    /// not.
+    ///
+    /// # Safety
+    /// No other thread writes to these rows meanwhile.
+    #[inline(always)]
+    pub(super) unsafe fn places<L: Lane>(&self, first: usize, count: usize) -> [L; D] {
+        // SAFETY: the rows exist
+        unsafe { points::<L, D>(self.place.add(first), count) }
+    }
+
+    /// Present positions of `count` points from row `first` on, four at most, m; the last stands for those that there are not.
+    ///
+    /// # Safety
+    /// No other thread writes to these rows meanwhile.
+    #[inline(always)]
+    pub(super) unsafe fn positions<L: Lane>(&self, first: usize, count: usize) -> [L; D] {
+        // SAFETY: the rows exist
+        unsafe { points::<L, D>(self.position.add(first), count) }
+    }
+
+    /// Velocities, as for [`Self::positions`].
+    ///
+    /// # Safety
+    /// As there.
+    #[inline(always)]
+    pub(super) unsafe fn velocities<L: Lane>(&self, first: usize, count: usize) -> [L; D] {
+        // SAFETY: the rows exist
+        unsafe { points::<L, D>(self.velocity.add(first), count) }
+    }
+
+    /// Masses, zero for points that there are not.
+    ///
+    /// # Safety
+    /// As for [`Self::positions`].
+    #[inline(always)]
+    pub(super) unsafe fn masses<L: Lane>(&self, first: usize, count: usize) -> L {
+        // SAFETY: the rows exist
+        unsafe {
+            if count == 4 {
+                let [masses] = L::load_points::<1>(self.mass.add(first));
+                return masses;
+            }
+            let mut masses = [0.0; 4];
+            std::ptr::copy_nonoverlapping(self.mass.add(first), masses.as_mut_ptr(), count);
+            L::new(masses)
+        }
+    }
+
+    /// Writes positions of `count` points from row `first` on.
+    ///
+    /// # Safety
+    /// No other thread uses these rows meanwhile.
+    #[inline(always)]
+    pub(super) unsafe fn set_positions<L: Lane>(&self, first: usize, count: usize, x: &[L; D]) {
+        // SAFETY: the rows exist
+        unsafe { set_points::<L, D>(self.position.add(first), count, x) }
+    }
+
+    /// Writes velocities.
+    ///
+    /// # Safety
+    /// As for [`Self::set_positions`].
+    #[inline(always)]
+    pub(super) unsafe fn set_velocities<L: Lane>(&self, first: usize, count: usize, v: &[L; D]) {
+        // SAFETY: the rows exist
+        unsafe { set_points::<L, D>(self.velocity.add(first), count, v) }
+    }
+
+    /// Books hoop rates v_r / r of `count` points from row `first` on, and stretches their hoops by them over `dt`.
+    ///
+    /// # Safety
+    /// As for [`Self::set_positions`]; the body is axisymmetric.
+    #[inline(always)]
+    pub(super) unsafe fn stretch_hoops<L: Lane>(
+        &self,
+        first: usize,
+        count: usize,
+        rate: L,
+        dt: f64,
+        rates: &mut [f64],
+    ) {
+        let rate = rate.array();
+        for q in 0..count {
+            rates[q] = rate[q];
+            // SAFETY: the rows exist
+            unsafe { *self.hoop_stretch.add(first + q) *= 1.0 + dt * rate[q] };
+        }
+    }
+
+    /// Deformation gradients and first Piola–Kirchhoff stresses of the given rows.
+    ///
+    /// # Safety
+    /// No other thread uses these rows meanwhile; the frame is total.
+    #[allow(clippy::mut_from_ref)] // the caller promises
+    pub unsafe fn reference_columns(
+        &self,
+        first: usize,
+        count: usize,
+    ) -> (&mut [Matrix<D>], &mut [Matrix<D>]) {
+        // SAFETY: the rows exist, and the caller keeps everybody else away
+        unsafe {
+            (
+                std::slice::from_raw_parts_mut(self.deformation.add(first), count),
+                std::slice::from_raw_parts_mut(self.first_piola.add(first), count),
+            )
         }
     }
 
@@ -66,5 +223,35 @@ impl<const D: usize> Columns<D> {
                 std::slice::from_raw_parts_mut(self.hoop_stretch.add(offset), hoops),
             )
         }
+    }
+}
+
+/// `count` vectors, four at most; the last stands for those that there are not.
+#[inline(always)]
+unsafe fn points<L: Lane, const D: usize>(from: *const Vector<D>, count: usize) -> [L; D] {
+    // SAFETY: the caller vouches for `count` vectors
+    unsafe {
+        if count == 4 {
+            return L::load_points::<D>(from.cast());
+        }
+        let mut four = [*from; 4];
+        for q in 1..4 {
+            four[q] = *from.add(q.min(count - 1));
+        }
+        L::load_points::<D>(four.as_ptr().cast())
+    }
+}
+
+/// Writes the first `count` of four vectors.
+#[inline(always)]
+unsafe fn set_points<L: Lane, const D: usize>(to: *mut Vector<D>, count: usize, points: &[L; D]) {
+    // SAFETY: the caller vouches for `count` vectors
+    unsafe {
+        if count == 4 {
+            return L::store_points::<D>(points, to.cast());
+        }
+        let mut four = [Vector::<D>::zeros(); 4];
+        L::store_points::<D>(points, four.as_mut_ptr().cast());
+        std::ptr::copy_nonoverlapping(four.as_ptr(), to, count);
     }
 }

@@ -1,12 +1,15 @@
 //! From the grid to points.
 
-use super::nodes::{gather_linear, gather_value, matrix, vector};
+use super::group::{Group, Needs};
+use super::nodes::{Stencil, gather_linear, gather_value, without_absent};
+use super::scatter::{Scattered, scatter_point};
 use super::{CHUNK, Columns, Pass, Reach, Tile};
 use crate::basis::Basis;
-use crate::grid::Node;
-use crate::math::{Matrix, Vector};
+use crate::grid::{Block, Node};
+use crate::material::Rate;
 use crate::solver::lane::Lane;
 use crate::transfer::Transfer;
+use std::mem::MaybeUninit;
 
 /// What the gathering of one block leaves behind.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +18,8 @@ pub struct Gathered {
     pub kinetic: f64,
     /// Largest v² of a point, m²/s².
     pub speed_squared: f64,
-    /// Whether all points are finite, inside the grid and within the reach of their block.
+    /// Whether all points are finite, and, unless they stay where they are in the grid, inside it and within the reach of their
+    /// block.
     pub within: bool,
 }
 
@@ -37,20 +41,53 @@ impl Gathered {
     }
 }
 
-/// Velocity gradients of up to [`CHUNK`] points.
+/// Velocity gradients of up to [`CHUNK`] points, set by the kernel that gathers them.
 pub struct Rates<const D: usize> {
     /// L, 1/s.
-    pub gradient: [Matrix<D>; CHUNK],
+    gradient: [MaybeUninit<Rate<D>>; CHUNK],
     /// v_r / r, 1/s; only set in an axisymmetric scene.
-    pub hoop: [f64; CHUNK],
+    hoop: [f64; CHUNK],
+}
+
+impl<const D: usize> Default for Rates<D> {
+    /// None yet.
+    fn default() -> Self {
+        Self {
+            gradient: [MaybeUninit::uninit(); CHUNK],
+            hoop: [0.0; CHUNK],
+        }
+    }
 }
 
 impl<const D: usize> Rates<D> {
-    /// All zero.
-    pub fn zeros() -> Self {
-        Self {
-            gradient: [Matrix::zeros(); CHUNK],
-            hoop: [0.0; CHUNK],
+    /// The gradients of the first `count` points, and the hoop rates of the first `hoops`.
+    ///
+    /// # Safety
+    /// The gradients of that many points were gathered.
+    pub unsafe fn of(&self, count: usize, hoops: usize) -> (&[Rate<D>], &[f64]) {
+        let set = &self.gradient[..count];
+        // SAFETY: MaybeUninit<Rate> has the layout of Rate, and the caller knows that these are set
+        let gradients = unsafe { &*(set as *const [MaybeUninit<Rate<D>>] as *const [Rate<D>]) };
+        (gradients, &self.hoop[..hoops])
+    }
+
+    /// The gradients of the first `count` points.
+    ///
+    /// # Safety
+    /// They were gathered.
+    pub unsafe fn of_mut(&mut self, count: usize) -> &mut [Rate<D>] {
+        let set = &mut self.gradient[..count];
+        // SAFETY: as in `of`
+        unsafe { &mut *(set as *mut [MaybeUninit<Rate<D>>] as *mut [Rate<D>]) }
+    }
+
+    /// Sets the columns of one point's gradient.
+    #[inline(always)]
+    fn set<L: Lane>(&mut self, point: usize, columns: &[L; D]) {
+        let gradient = self.gradient[point].as_mut_ptr().cast::<f64>();
+        for a in 0..D {
+            // SAFETY: column a of a gradient is four numbers, aligned to 32 bytes
+            unsafe { columns[a].store(gradient.add(4 * a)) };
         }
     }
 }
@@ -79,6 +116,40 @@ pub struct Wanted {
     pub same: bool,
 }
 
+impl Wanted {
+    /// Update stress last: everything from the velocities at the end of the step.
+    pub const ALL: Self = Self {
+        velocity: true,
+        position: true,
+        rate: true,
+        same: true,
+    };
+    /// New velocities and positions.
+    pub const MOTION: Self = Self {
+        rate: false,
+        same: false,
+        ..Self::ALL
+    };
+    /// New velocities.
+    pub const VELOCITY: Self = Self {
+        position: false,
+        ..Self::MOTION
+    };
+    /// Gradients of the second velocities.
+    pub const STRAIN: Self = Self {
+        velocity: false,
+        position: false,
+        rate: true,
+        same: false,
+    };
+    /// New positions, and gradients of the second velocities. Positions follow the velocities at the end of the step, which
+    /// points that take them whole have by now.
+    pub const POSITION_AND_STRAIN: Self = Self {
+        position: true,
+        ..Self::STRAIN
+    };
+}
+
 /// Brings the grid to the given rows (at most [`CHUNK`]) of a block.
 ///
 /// # Safety
@@ -96,93 +167,320 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
     sources: &Sources,
     rates: &mut Rates<D>,
 ) -> Gathered {
-    let mut gathered = Gathered::NONE;
-    let inverse = 1.0 / pass.geometry.cell_size;
-    let blend = pass.transfer.ratio() < 1.0;
-    let first_row = rows.start;
-    for p in rows {
-        // SAFETY: row p belongs to this block alone (module header)
-        let mut position = unsafe { *columns.position.add(p) };
-        let s = pass.stencil::<N>(tile, &position);
-        let (t, w) = (s.at, &s.weight);
-        let mut new = L::splat(0.0);
-        let mut hoop_velocity = 0.0;
-        // SAFETY: the tile holds every node of the stencil (module header)
-        unsafe {
-            if what.rate && what.same && what.velocity && T::AFFINE {
-                let g = pass.affine_weights(&s);
-                let (value, [gradient, affine]) =
-                    gather_linear::<L, D, N, 2>(sources.main, tile, t, w, [&s.slope, &g]);
-                rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
-                *columns.affine.add(p) = matrix::<L, D>(&affine);
-                hoop_velocity = value.array()[0];
-                new = value;
-            } else {
-                if what.rate {
-                    let from = if what.same {
-                        sources.main
-                    } else {
-                        sources.second
-                    };
-                    let (value, [gradient]) =
-                        gather_linear::<L, D, N, 1>(from, tile, t, w, [&s.slope]);
-                    rates.gradient[p - first_row] = matrix::<L, D>(&gradient);
-                    hoop_velocity = value.array()[0];
-                    if what.same {
-                        new = value;
-                    }
-                }
-                if what.velocity && T::AFFINE {
-                    let g = pass.affine_weights(&s);
-                    let (value, [affine]) =
-                        gather_linear::<L, D, N, 1>(sources.main, tile, t, w, [&g]);
-                    *columns.affine.add(p) = matrix::<L, D>(&affine);
-                    new = value;
-                } else if !(what.rate && what.same)
-                    && (what.position || (what.velocity && (blend || !T::CHANGE)))
-                {
-                    new = gather_value::<L, D, N>(sources.main, tile, t, w);
-                }
-            }
-        }
-        if what.rate && D == 2 && columns.axisymmetric {
-            let hoop = hoop_velocity / position[0];
-            rates.hoop[p - first_row] = hoop;
+    let mut group = Group::<D, N>::new();
+    let needs = Needs {
+        slope: (what.velocity && T::TAYLOR) || (what.rate && !T::MOVING_LEAST_SQUARES),
+        affine: (what.velocity && T::AFFINE && !T::TAYLOR)
+            || (what.rate && T::MOVING_LEAST_SQUARES),
+    };
+    let mut sums = GatheredLanes::<L>::new();
+    let dt = L::splat(pass.dt);
+    for first in rows.clone().step_by(4) {
+        let count = (rows.end - first).min(4);
+        let at = first - rows.start;
+        // SAFETY: the rows belong to this block alone (module header)
+        let place = unsafe { columns.places::<L>(first, count) };
+        columns.prefetch::<L>(first, T::AFFINE && what.velocity, false);
+        group.set::<L, B, T>(pass, tile, &place, needs);
+        // where the two are one column, it is read once
+        let mut position = place;
+        if columns.total {
             // SAFETY: as above
-            unsafe { *columns.hoop_stretch.add(p) *= 1.0 + pass.dt * hoop };
+            position = unsafe { columns.positions::<L>(first, count) };
         }
-        let new: [f64; D] = vector(new);
+        let four = FourRows { first, count };
+        // SAFETY: the tile holds every node of the stencils, and the rows belong to this block alone (module header)
+        let offered = unsafe {
+            offered::<L, D, N, B, T>(
+                pass,
+                columns,
+                &group,
+                tile,
+                four,
+                what,
+                sources,
+                Some((rates, at)),
+            )
+        };
+        if what.rate && D == 2 && columns.axisymmetric {
+            let rate = offered.radial / position[0];
+            // SAFETY: as above
+            unsafe { columns.stretch_hoops(first, count, rate, pass.dt, &mut rates.hoop[at..]) };
+        }
+        let mut moving = offered.new;
         if what.velocity {
             // SAFETY: as above
-            let (old, mass) = unsafe { (*columns.velocity.add(p), *columns.mass.add(p)) };
-            let change: [f64; D] = if T::CHANGE {
-                // SAFETY: as above
-                vector(unsafe { gather_value::<L, D, N>(sources.change, tile, t, w) })
-            } else {
-                [0.0; D]
-            };
-            let mut velocity = Vector::<D>::zeros();
-            let mut square = 0.0;
-            for a in 0..D {
-                let v = pass.transfer.velocity(old[a], new[a], change[a]);
-                velocity[a] = v;
-                square += v * v;
-            }
+            unsafe { sums.take(pass, columns, four, &offered) };
+        } else if what.position && !T::CHANGE {
+            // the velocity that the point took from these nodes
             // SAFETY: as above
-            unsafe { *columns.velocity.add(p) = velocity };
-            gathered.kinetic += 0.5 * mass * square;
-            // `max` would hide a velocity that is not a number
-            gathered.within &= square.is_finite();
-            gathered.speed_squared = gathered.speed_squared.max(square);
+            moving = unsafe { columns.velocities::<L>(first, count) };
         }
         if what.position {
+            let mut x = position;
             for a in 0..D {
-                position[a] += pass.dt * new[a];
+                position[a] = dt.mul_add(moving[a], position[a]);
+                x[a] = (position[a] - pass.geometry.min[a]) * (1.0 / pass.geometry.cell_size);
             }
             // SAFETY: as above
-            unsafe { *columns.position.add(p) = position };
-            gathered.within &= reach.holds(&pass.geometry.in_cells(&position, inverse));
+            unsafe { columns.set_positions(first, count, &position) };
+            sums.within &= if columns.total {
+                all_finite(&position)
+            } else {
+                reach.holds_all(&x)
+            };
         }
     }
-    gathered
+    sums.total()
+}
+
+/// Gives the points of one block their new velocities, and adds their new momenta and masses to `second`.
+///
+/// # Safety
+/// As for [`gather`] and [`scatter`](super::scatter); `second` is none of the sources.
+#[inline(always)]
+pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+    pass: &Pass<'_, D, B, T>,
+    columns: &Columns<D>,
+    block: &Block<D>,
+    edge: i32,
+    sources: &Sources,
+    second: *mut Node,
+) -> Gathered {
+    let tile = Tile::new(block, edge, N);
+    let points = block.points();
+    let mut group = Group::<D, N>::new();
+    let needs = Needs {
+        slope: T::TAYLOR,
+        affine: T::AFFINE,
+    };
+    let mut sums = GatheredLanes::<L>::new();
+    for first in points.clone().step_by(4) {
+        let count = (points.end - first).min(4);
+        let four = FourRows { first, count };
+        // SAFETY: as in `gather`, and as in `scatter`
+        unsafe {
+            let place = columns.places::<L>(first, count);
+            group.set::<L, B, T>(pass, &tile, &place, needs);
+            let velocities = Wanted::VELOCITY;
+            let offered = offered::<L, D, N, B, T>(
+                pass, columns, &group, &tile, four, velocities, sources, None,
+            );
+            sums.take(pass, columns, four, &offered);
+            for q in 0..count {
+                let s = Stencil {
+                    group: &group,
+                    tile: &tile,
+                    q,
+                };
+                scatter_point::<L, D, N, B, T>(
+                    pass,
+                    columns,
+                    &s,
+                    first + q,
+                    Scattered::MOMENTUM,
+                    second,
+                    second,
+                );
+            }
+        }
+    }
+    sums.total()
+}
+
+#[inline(always)]
+fn all_finite<L: Lane, const D: usize>(position: &[L; D]) -> bool {
+    let mut finite = true;
+    for a in 0..D {
+        finite &= position[a].all_within(-f64::MAX, f64::MAX);
+    }
+    finite
+}
+
+/// Rows of up to four points, one after the other.
+#[derive(Clone, Copy)]
+struct FourRows {
+    first: usize,
+    count: usize,
+}
+
+/// Velocities that the grid offers to four points, m/s.
+struct Offered<L, const D: usize> {
+    /// At the end of the step.
+    new: [L; D],
+    /// Their change over the step.
+    change: [L; D],
+    /// Along r, of those that strain the points.
+    radial: L,
+}
+
+/// What the grid offers to four points; affine fields are stored, gradients booked from a place of `gradients` on.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+    pass: &Pass<'_, D, B, T>,
+    columns: &Columns<D>,
+    group: &Group<D, N>,
+    tile: &Tile<D>,
+    rows: FourRows,
+    what: Wanted,
+    sources: &Sources,
+    mut gradients: Option<(&mut Rates<D>, usize)>,
+) -> Offered<L, D> {
+    let blend = pass.transfer.ratio() < 1.0;
+    let zero = L::splat(0.0);
+    let (mut new, mut change, mut straining) = ([zero; 4], [zero; 4], [zero; 4]);
+    // whose gathered velocities are the columns of L, and of C
+    let slope = if T::MOVING_LEAST_SQUARES {
+        &group.affine
+    } else {
+        &group.slope
+    };
+    let own = if T::TAYLOR {
+        &group.slope
+    } else {
+        &group.affine
+    };
+    let alike = T::MOVING_LEAST_SQUARES || T::TAYLOR;
+    for q in 0..rows.count {
+        let s = Stencil { group, tile, q };
+        // SAFETY: as the caller says
+        unsafe {
+            let affine = columns.affine.wrapping_add(rows.first + q).cast::<f64>();
+            if what.rate && what.same {
+                if what.velocity && T::AFFINE && !alike {
+                    let (value, [mut gradient, mut columns_of_c]) =
+                        gather_linear::<L, D, N, 2>(sources.main, &s, [slope, own]);
+                    if B::SLOPES_JUMP {
+                        without_absent(value, &mut gradient);
+                    }
+                    book(&mut gradients, q, &gradient);
+                    if B::SLOPES_JUMP {
+                        without_absent(value, &mut columns_of_c);
+                    }
+                    L::store_matrix::<D>(&columns_of_c, affine);
+                    new[q] = value;
+                } else {
+                    let (value, [mut gradient]) =
+                        gather_linear::<L, D, N, 1>(sources.main, &s, [slope]);
+                    if B::SLOPES_JUMP {
+                        without_absent(value, &mut gradient);
+                    }
+                    book(&mut gradients, q, &gradient);
+                    if what.velocity && T::AFFINE {
+                        L::store_matrix::<D>(&gradient, affine);
+                    }
+                    new[q] = value;
+                }
+                straining[q] = new[q];
+            } else {
+                if what.rate {
+                    let (value, [mut gradient]) =
+                        gather_linear::<L, D, N, 1>(sources.second, &s, [slope]);
+                    if B::SLOPES_JUMP {
+                        without_absent(value, &mut gradient);
+                    }
+                    book(&mut gradients, q, &gradient);
+                    straining[q] = value;
+                }
+                if what.velocity && T::AFFINE {
+                    let (value, [mut columns_of_c]) =
+                        gather_linear::<L, D, N, 1>(sources.main, &s, [own]);
+                    if B::SLOPES_JUMP {
+                        without_absent(value, &mut columns_of_c);
+                    }
+                    L::store_matrix::<D>(&columns_of_c, affine);
+                    new[q] = value;
+                } else if (what.position && T::CHANGE) || (what.velocity && (blend || !T::CHANGE)) {
+                    new[q] = gather_value::<L, D, N>(sources.main, &s);
+                }
+            }
+            if what.velocity && T::CHANGE {
+                change[q] = gather_value::<L, D, N>(sources.change, &s);
+            }
+        }
+    }
+    let [radial] = L::turn::<1>(&straining);
+    Offered {
+        new: L::turn::<D>(&new),
+        change: L::turn::<D>(&change),
+        radial,
+    }
+}
+
+#[inline(always)]
+fn book<L: Lane, const D: usize>(
+    gradients: &mut Option<(&mut Rates<D>, usize)>,
+    q: usize,
+    columns: &[L; D],
+) {
+    if let Some((rates, at)) = gradients {
+        rates.set(*at + q, columns);
+    }
+}
+
+/// [`Gathered`] of every fourth point.
+struct GatheredLanes<L> {
+    /// Σ m v².
+    kinetic: L,
+    fastest: L,
+    within: bool,
+}
+
+impl<L: Lane> GatheredLanes<L> {
+    #[inline(always)]
+    fn new() -> Self {
+        Self {
+            kinetic: L::splat(0.0),
+            fastest: L::splat(0.0),
+            within: true,
+        }
+    }
+
+    /// Gives four points their new velocities, and counts them.
+    ///
+    /// # Safety
+    /// Nobody else uses these rows.
+    #[inline(always)]
+    unsafe fn take<const D: usize, B, T: Transfer>(
+        &mut self,
+        pass: &Pass<'_, D, B, T>,
+        columns: &Columns<D>,
+        rows: FourRows,
+        offered: &Offered<L, D>,
+    ) {
+        let FourRows { first, count } = rows;
+        let mut velocity = offered.new;
+        if T::CHANGE {
+            // SAFETY: as the caller says
+            let old = unsafe { columns.velocities::<L>(first, count) };
+            for a in 0..D {
+                let (new, change) = (offered.new[a], offered.change[a]);
+                velocity[a] = pass.transfer.velocity(old[a], new, change);
+            }
+        }
+        let mut square = velocity[0] * velocity[0];
+        for a in 1..D {
+            square = velocity[a].mul_add(velocity[a], square);
+        }
+        // SAFETY: as the caller says
+        let mass = unsafe {
+            columns.set_velocities(first, count, &velocity);
+            columns.masses::<L>(first, count)
+        };
+        self.kinetic = mass.mul_add(square, self.kinetic);
+        // `max` would hide a velocity that is not a number
+        self.within &= square.all_within(0.0, f64::MAX);
+        self.fastest = self.fastest.max(square);
+    }
+
+    #[inline(always)]
+    fn total(&self) -> Gathered {
+        let (kinetic, fastest) = (self.kinetic.array(), self.fastest.array());
+        Gathered {
+            kinetic: 0.5 * ((kinetic[0] + kinetic[1]) + (kinetic[2] + kinetic[3])),
+            speed_squared: fastest.iter().fold(0.0, |most, v| f64::max(most, *v)),
+            within: self.within,
+        }
+    }
 }

@@ -1,10 +1,11 @@
 //! From points to the grid.
 
-use super::nodes::{lane, scatter_linear, scatter_value};
-use super::{Columns, Pass, Stencil, Tile};
+use super::group::{Group, Needs};
+use super::nodes::{Gift, Stencil, scatter_gift};
+use super::{Columns, Pass, Tile};
 use crate::basis::Basis;
 use crate::grid::{Block, Node};
-use crate::math::{Vector, packed_len, unpack};
+use crate::math::{Matrix, Vector, packed_len};
 use crate::solver::lane::Lane;
 use crate::transfer::Transfer;
 
@@ -15,6 +16,24 @@ pub struct Scattered {
     pub momentum: bool,
     /// Internal forces.
     pub force: bool,
+}
+
+impl Scattered {
+    /// Momenta, masses and internal forces.
+    pub const ALL: Self = Self {
+        momentum: true,
+        force: true,
+    };
+    /// Momenta and masses.
+    pub const MOMENTUM: Self = Self {
+        momentum: true,
+        force: false,
+    };
+    /// Internal forces.
+    pub const FORCE: Self = Self {
+        momentum: false,
+        force: true,
+    };
 }
 
 /// Adds the points of one block to the grid: momenta and masses into `main`, internal forces
@@ -34,112 +53,172 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
     force: *mut Node,
 ) {
     let tile = Tile::new(block, edge, N);
-    let width = packed_len(D);
-    for p in block.points() {
-        // SAFETY: row p belongs to this block alone (module header)
-        let (position, velocity, mass) = unsafe {
-            (
-                *columns.position.add(p),
-                *columns.velocity.add(p),
-                *columns.mass.add(p),
-            )
-        };
-        let s = pass.stencil::<N>(&tile, &position);
-        let mut value = [0.0; 4]; // goes with N
-        let mut hoop = 0.0; // radial force that goes with N
-        let mut columns_of_x = [[L::splat(0.0); N]; D];
-        if what.momentum {
-            for a in 0..D {
-                value[a] = mass * velocity[a];
-            }
-            value[D] = mass;
-            if T::AFFINE {
-                // SAFETY: as above
-                let affine = unsafe { &*columns.affine.add(p) };
-                let scale = L::splat(mass * pass.geometry.cell_size);
-                for a in 0..D {
-                    let column = lane::<L, D>(&affine.data.0[a]).mul(scale);
-                    for i in 0..N {
-                        columns_of_x[a][i] = column.mul(L::splat(s.weight[a][i] * s.arm[a][i]));
-                    }
-                }
-            }
-        }
-        let mut forces = [[L::splat(0.0); N]; D];
-        if what.force {
-            // SAFETY: as above
-            let (volume, stress) = unsafe {
-                (
-                    *columns.volume.add(p),
-                    std::slice::from_raw_parts(columns.stress.add(p * width), width),
-                )
+    let points = block.points();
+    let mut group = Group::<D, N>::new();
+    let needs = Needs {
+        slope: what.force && !T::MOVING_LEAST_SQUARES,
+        affine: T::AFFINE,
+    };
+    for first in points.clone().step_by(4) {
+        let count = (points.end - first).min(4);
+        // SAFETY: the rows belong to this block alone (module header)
+        let place = unsafe { columns.places::<L>(first, count) };
+        columns.prefetch::<L>(first, T::AFFINE && what.momentum, what.force);
+        group.set::<L, B, T>(pass, &tile, &place, needs);
+        for q in 0..count {
+            let s = Stencil {
+                group: &group,
+                tile: &tile,
+                q,
             };
-            let scale = if T::CHANGE {
-                -volume
-            } else {
-                -volume * pass.dt
-            };
-            let stress = unpack::<D>(stress);
-            for a in 0..D {
-                let column = lane::<L, D>(&stress.data.0[a]).mul(L::splat(scale));
-                for i in 0..N {
-                    let x = if T::CHANGE {
-                        &mut forces
-                    } else {
-                        &mut columns_of_x
-                    };
-                    x[a][i] = column.mul_add(L::splat(s.slope[a][i]), x[a][i]);
-                }
-            }
-            if D == 2 && columns.axisymmetric {
-                // SAFETY: as above
-                hoop = scale * unsafe { *columns.hoop_stress.add(p) } / position[0];
-            }
-        }
-        // SAFETY: the tile holds every node of the stencil (module header)
-        unsafe {
-            if T::CHANGE {
-                if what.momentum {
-                    add_point(main, &tile, &s, L::new(value), T::AFFINE, columns_of_x);
-                }
-                if what.force {
-                    add_point(
-                        force,
-                        &tile,
-                        &s,
-                        L::new([hoop, 0.0, 0.0, 0.0]),
-                        true,
-                        forces,
-                    );
-                }
-            } else {
-                value[0] += hoop;
-                let linear = what.force || T::AFFINE;
-                add_point(main, &tile, &s, L::new(value), linear, columns_of_x);
+            // SAFETY: as the caller says, and as above
+            unsafe {
+                scatter_point::<L, D, N, B, T>(pass, columns, &s, first + q, what, main, force)
             }
         }
     }
 }
 
 #[inline(always)]
-unsafe fn add_point<L: Lane, const D: usize, const N: usize>(
-    nodes: *mut Node,
-    tile: &Tile<D>,
-    s: &Stencil<D, N>,
-    value: L,
-    linear: bool,
-    mut x: [[L; N]; D],
+pub(super) unsafe fn scatter_point<
+    L: Lane,
+    const D: usize,
+    const N: usize,
+    B: Basis<N>,
+    T: Transfer,
+>(
+    pass: &Pass<'_, D, B, T>,
+    columns: &Columns<D>,
+    s: &Stencil<'_, D, N>,
+    p: usize,
+    what: Scattered,
+    main: *mut Node,
+    force: *mut Node,
 ) {
-    // SAFETY: the caller's tile holds every node of the stencil
-    unsafe {
-        if linear {
-            for i in 0..N {
-                x[0][i] = value.mul_add(L::splat(s.weight[0][i]), x[0][i]);
+    let zero = L::splat(0.0);
+    let mut value = zero;
+    let mut moment = [zero; D]; // columns of m C Σ N (x_i − x)²
+    let mut pull = [zero; D]; // columns of −V₀ τ, or of −V₀ P in the total frame, times Δt where impulses are wanted
+    let mut hoop = 0.0; // radial force that goes with N
+    if what.momentum {
+        // SAFETY: row p belongs to this block alone (module header)
+        let (velocity, mass) = unsafe {
+            (
+                L::load_point::<D>(columns.velocity.add(p).cast()),
+                *columns.mass.add(p),
+            )
+        };
+        // m (v, 1)
+        value = (velocity + L::new(unit::<D>())) * L::splat(mass);
+        if T::AFFINE {
+            for a in 0..D {
+                // SAFETY: as above; column a of a D × D matrix
+                let column =
+                    unsafe { L::load_point::<D>(columns.affine.add(p).cast::<f64>().add(a * D)) };
+                moment[a] = column * L::splat(mass * s.group.inertia[a].0[s.q]);
             }
-            scatter_linear(nodes, tile, s.at, &s.weight, &x);
-        } else {
-            scatter_value(nodes, tile, s.at, &s.weight, value);
         }
+    }
+    if what.force {
+        // SAFETY: as above
+        let (volume, stress) = unsafe {
+            let stress = if columns.total {
+                load_matrix::<L, D>(columns.first_piola.add(p))
+            } else {
+                L::load_symmetric::<D>(columns.stress.add(p * packed_len(D)))
+            };
+            (*columns.volume.add(p), stress)
+        };
+        let scale = if T::CHANGE {
+            -volume
+        } else {
+            -volume * pass.dt
+        };
+        // zero where a node has its mass: there the stress' columns may hold anything
+        let scales = L::new(first_numbers::<D>(scale));
+        for a in 0..D {
+            pull[a] = stress[a] * scales;
+        }
+        if D == 2 && columns.axisymmetric {
+            // SAFETY: as above
+            hoop = unsafe { scale * *columns.hoop_stress.add(p) / (&*columns.position.add(p))[0] };
+        }
+    }
+    let mut slant = [[zero; N]; D];
+    let (affine, slope) = (&s.group.affine, &s.group.slope);
+    for a in 0..D {
+        if T::MOVING_LEAST_SQUARES {
+            let column = moment[a] + pull[a];
+            for i in 0..N {
+                slant[a][i] = column * L::splat(affine[a][i].0[s.q]);
+            }
+            continue;
+        }
+        if T::AFFINE && what.momentum {
+            for i in 0..N {
+                slant[a][i] = moment[a] * L::splat(affine[a][i].0[s.q]);
+            }
+        }
+        if what.force {
+            for i in 0..N {
+                slant[a][i] = pull[a].mul_add(L::splat(slope[a][i].0[s.q]), slant[a][i]);
+            }
+        }
+    }
+    let mut gift = Gift { value, slant };
+    let radial = L::new([hoop, 0.0, 0.0, 0.0]);
+    // SAFETY: the tile holds every node of the stencil (module header)
+    unsafe {
+        match (T::CHANGE, what.momentum, what.force) {
+            (true, true, true) if !columns.axisymmetric => {
+                scatter_gift::<L, D, N, true, true>(main, force, s, &gift);
+            }
+            (true, momentum, internal) => {
+                if momentum {
+                    scatter_gift::<L, D, N, true, false>(main, main, s, &gift);
+                }
+                if internal {
+                    gift.value = radial;
+                    scatter_gift::<L, D, N, false, true>(force, force, s, &gift);
+                }
+            }
+            (false, _, true) => {
+                gift.value = gift.value + radial;
+                scatter_gift::<L, D, N, false, true>(main, main, s, &gift);
+            }
+            (false, _, false) if T::AFFINE => {
+                scatter_gift::<L, D, N, false, true>(main, main, s, &gift);
+            }
+            (false, _, false) => scatter_gift::<L, D, N, true, false>(main, main, s, &gift),
+        }
+    }
+}
+
+/// The columns of a matrix.
+#[inline(always)]
+unsafe fn load_matrix<L: Lane, const D: usize>(from: *const Matrix<D>) -> [L; D] {
+    let mut columns = [L::splat(0.0); D];
+    for a in 0..D {
+        // SAFETY: the caller vouches for a matrix, whose column a starts there
+        columns[a] = unsafe { L::load_point::<D>(from.cast::<f64>().add(a * D)) };
+    }
+    columns
+}
+
+/// One where a node has its mass.
+const fn unit<const D: usize>() -> [f64; 4] {
+    let mut numbers = [0.0; 4];
+    numbers[D] = 1.0;
+    numbers
+}
+
+/// The same number D times, then zeros.
+#[inline(always)]
+fn first_numbers<const D: usize>(x: f64) -> [f64; 4] {
+    match D {
+        1 => [x, 0.0, 0.0, 0.0],
+        2 => [x, x, 0.0, 0.0],
+        _ => [x, x, x, 0.0],
     }
 }
 
@@ -160,18 +239,33 @@ pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N
     forces: &[(u32, Vector<D>)],
 ) {
     let tile = Tile::new(block, edge, N);
+    let mut group = Group::<D, N>::new();
+    let needs = Needs {
+        slope: true,
+        affine: false,
+    };
     for (p, force) in forces {
         // SAFETY: row p belongs to this block alone (module header)
-        let position = unsafe { *columns.position.add(*p as usize) };
-        let s = pass.stencil::<N>(&tile, &position);
-        let value = lane::<L, D>(&force.data.0[0]);
-        let mut moments = [[L::splat(0.0); N]; D];
+        let place = unsafe { columns.places::<L>(*p as usize, 1) };
+        group.set::<L, B, T>(pass, &tile, &place, needs);
+        let s = Stencil {
+            group: &group,
+            tile: &tile,
+            q: 0,
+        };
+        // SAFETY: a vector has D numbers
+        let value = unsafe { L::load_point::<D>(force.as_ptr()) };
+        let mut gift = Gift {
+            value,
+            slant: [[L::splat(0.0); N]; D],
+        };
         for a in 0..D {
+            let moment = value * L::splat(offset[a]);
             for i in 0..N {
-                moments[a][i] = value.mul(L::splat(offset[a] * s.slope[a][i]));
+                gift.slant[a][i] = moment * L::splat(group.slope[a][i].0[0]);
             }
         }
         // SAFETY: the tile holds every node of the stencil
-        unsafe { add_point(nodes, &tile, &s, value, true, moments) };
+        unsafe { scatter_gift::<L, D, N, false, true>(nodes, nodes, &s, &gift) };
     }
 }

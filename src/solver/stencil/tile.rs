@@ -1,6 +1,8 @@
 //! Which nodes the points of a block may reach, and where those nodes are stored.
 
-use crate::grid::Block;
+use crate::grid::{Block, Node};
+use crate::solver::lane::Lane;
+use std::mem::MaybeUninit;
 
 /// The most rows that a tile has: 13 × 13, for blocks of 8 and stencils of 4 in 3D.
 const MAX_ROWS: usize = 169;
@@ -11,10 +13,12 @@ const MARGIN: usize = 1;
 /// Storage of the nodes that the points of one block may reach: all rows of an `edge + N + 1` cube, one node below the block
 /// to `N` nodes above it.
 pub struct Tile<const D: usize> {
-    pub(super) rows: [usize; MAX_ROWS],
+    /// Bytes from the start of an array of nodes to the first node of each row; below zero where a margin that nobody reaches
+    /// would lie before the array.
+    rows: [MaybeUninit<isize>; MAX_ROWS],
     pub(super) width: usize,
     /// The last place at which a stencil may start, along every axis.
-    last: u32,
+    last: f64,
     /// N, in a form that keeps the compiler from unrolling all N³ nodes of a 3D stencil, which takes it long and wins nothing.
     pub(super) n: usize,
     origin: [i32; D],
@@ -26,7 +30,9 @@ impl<const D: usize> Tile<D> {
     pub fn new(block: &Block<D>, edge: i32, n: usize) -> Self {
         let width = edge as usize + n + 2 * MARGIN - 1;
         let edge = edge as usize;
-        let mut rows = [0; MAX_ROWS];
+        // only the rows that this tile has are written, or ever read
+        let mut rows = [MaybeUninit::uninit(); MAX_ROWS];
+        let bytes = |node: usize| (node as isize - MARGIN as isize) * size_of::<Node>() as isize;
         // (which of the three neighbouring blocks, row within it) of row t of the tile
         let place = |t: usize| match t {
             t if t < MARGIN => (0, edge + t - MARGIN),
@@ -34,12 +40,14 @@ impl<const D: usize> Tile<D> {
             t => (2, t - MARGIN - edge),
         };
         match D {
-            1 => rows[0] = block.anchors[0].0 as usize - MARGIN,
+            1 => {
+                rows[0].write(bytes(block.anchors[0].0 as usize));
+            }
             2 => {
                 for t in 0..width {
                     let (column, i) = place(t);
                     let (base, stride) = block.anchors[column];
-                    rows[t] = base as usize + i * stride as usize - MARGIN;
+                    rows[t].write(bytes(base as usize + i * stride as usize));
                 }
             }
             _ => {
@@ -48,8 +56,8 @@ impl<const D: usize> Tile<D> {
                     for u in 0..width {
                         let (next, j) = place(u);
                         let (base, stride) = block.anchors[3 * column + next];
-                        rows[t * width + u] =
-                            base as usize + (i * edge + j) * stride as usize - MARGIN;
+                        let node = base as usize + (i * edge + j) * stride as usize;
+                        rows[t * width + u].write(bytes(node));
                     }
                 }
             }
@@ -57,24 +65,43 @@ impl<const D: usize> Tile<D> {
         Self {
             rows,
             width,
-            last: (edge + 2 * MARGIN - 1) as u32,
+            last: (edge + 2 * MARGIN - 1) as f64,
             n: std::hint::black_box(n),
             origin: block.origin,
         }
     }
 
-    /// Where a stencil that starts at node `first` lies in the tile.
+    /// Bytes from the start of an array of nodes to the first node of a row.
+    ///
+    /// # Safety
+    /// The tile has this row.
     #[inline(always)]
-    pub(super) fn local(&self, first: [i32; D]) -> [usize; D] {
-        let mut t = [0; D];
-        for a in 0..D {
-            // below the tile is far above it in unsigned numbers
-            let local = first[a]
-                .wrapping_sub(self.origin[a])
-                .wrapping_add(MARGIN as i32) as u32;
-            t[a] = local.min(self.last) as usize;
-        }
-        t
+    pub(super) unsafe fn row(&self, number: usize) -> isize {
+        debug_assert!(
+            number
+                < if D == 1 {
+                    1
+                } else {
+                    self.width.pow(D as u32 - 1)
+                }
+        );
+        // SAFETY: `new` wrote all rows of the tile
+        unsafe { self.rows.get_unchecked(number).assume_init() }
+    }
+
+    /// Where stencils that start at the given nodes lie along axis `a` of the tile.
+    #[inline(always)]
+    pub(super) fn local<L: Lane>(&self, a: usize, first: L) -> L {
+        let start = L::splat(f64::from(self.origin[a] - MARGIN as i32));
+        // a place that is not a number counts as the first
+        (first - start).max(L::splat(0.0)).min(L::splat(self.last))
+    }
+
+    /// Whether all stencils that start in the tile are among `low ..= high` along axis `a`.
+    #[inline(always)]
+    pub(super) fn alike(&self, a: usize, low: i32, high: i32) -> bool {
+        let first = self.origin[a] - MARGIN as i32;
+        first >= low && first + self.last as i32 <= high
     }
 }
 
@@ -107,5 +134,15 @@ impl<const D: usize> Reach<D> {
     #[inline(always)]
     pub fn holds(&self, x: &[f64; D]) -> bool {
         (0..D).all(|a| x[a] >= self.low[a] && x[a] <= self.high[a])
+    }
+
+    /// Whether four positions are inside.
+    #[inline(always)]
+    pub(super) fn holds_all<L: Lane>(&self, x: &[L; D]) -> bool {
+        let mut inside = true;
+        for a in 0..D {
+            inside &= x[a].all_within(self.low[a], self.high[a]);
+        }
+        inside
     }
 }

@@ -1,206 +1,12 @@
-//! What the kernels of `stencil` mean: the loops of the textbook, for each point, for each of its N^D nodes, over dense arrays;
-//! and the test that holds the fast kernels to them.
+//! Holds the fast kernels to the loops of the textbook.
 
-use super::kernels::{Context, Kernels, Stencils, wide_instructions};
-use super::stencil::{CHUNK, Columns, Rates, Reach, Scattered, Sources, Tile, Wanted};
-use crate::basis::{Basis, BasisChoice, BasisVisitor};
-use crate::grid::{Blocks, Geometry, Node, block_edge};
-use crate::math::{Matrix, Vector, packed_len, unpack};
-use crate::state::Particles;
-use crate::transfer::{Apic, Flip, Pic, Transfer, TransferChoice};
-
-/// Δt of all passes, s.
-const DT: f64 = 0.013;
-
-/// A vector and a number for every node of the grid.
-struct Dense<const D: usize> {
-    counts: [i32; D],
-    nodes: Vec<[f64; 4]>,
-}
-
-impl<const D: usize> Dense<D> {
-    fn new(counts: [i32; D]) -> Self {
-        Self {
-            counts,
-            nodes: vec![[0.0; 4]; counts.iter().product::<i32>() as usize],
-        }
-    }
-
-    fn number(&self, node: &[i32; D]) -> usize {
-        (0..D).fold(0, |number, a| {
-            number * self.counts[a] as usize + node[a] as usize
-        })
-    }
-
-    fn vector(&self, node: &[i32; D]) -> Vector<D> {
-        let numbers = &self.nodes[self.number(node)];
-        Vector::from_fn(|a, _| numbers[a])
-    }
-
-    fn add(&mut self, node: &[i32; D], vector: &Vector<D>, number: f64) {
-        let index = self.number(node);
-        for a in 0..D {
-            self.nodes[index][a] += vector[a];
-        }
-        self.nodes[index][D] += number;
-    }
-}
-
-/// A node that a point knows: which one, x_i − x, N_i and ∇N_i.
-struct Known<const D: usize> {
-    node: [i32; D],
-    arm: Vector<D>,
-    weight: f64,
-    gradient: Vector<D>,
-}
-
-/// All nodes that a point knows, weights and gradients as products.
-fn known<const D: usize, const N: usize, B: Basis<N>>(
-    geometry: &Geometry<D>,
-    basis: &[B; D],
-    position: &Vector<D>,
-) -> Vec<Known<D>> {
-    let h = geometry.cell_size;
-    let x = geometry.in_cells(position, 1.0 / h);
-    let axes: [_; D] = std::array::from_fn(|a| basis[a].axis(x[a], geometry.cells[a]));
-    (0..N.pow(D as u32))
-        .map(|number| {
-            let local: [usize; D] = std::array::from_fn(|a| number / N.pow(a as u32) % N);
-            let node = std::array::from_fn(|a| axes[a].first + local[a] as i32);
-            let product = |slope: usize| -> f64 {
-                (0..D)
-                    .map(|a| {
-                        if a == slope {
-                            axes[a].slope[local[a]] / h
-                        } else {
-                            axes[a].weight[local[a]]
-                        }
-                    })
-                    .product()
-            };
-            Known {
-                node,
-                arm: Vector::from_fn(|a, _| {
-                    h * (basis[a].position(node[a], geometry.cells[a]) - x[a])
-                }),
-                weight: product(D),
-                gradient: Vector::from_fn(|a, _| product(a)),
-            }
-        })
-        .collect()
-}
-
-/// How a transfer is written in a paper.
-#[derive(Clone, Copy)]
-enum Method {
-    Pic,
-    Flip(f64),
-    Apic,
-}
-
-/// Momentum m v + m C (x_i − x) and mass; force −V₀ τ ∇N, and −V₀ τ_θ N / r along r.
-fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
-    geometry: &Geometry<D>,
-    basis: &[B; D],
-    method: Method,
-    p: &Particles<D>,
-    what: Scattered,
-    main: &mut Dense<D>,
-    force: &mut Dense<D>,
-) {
-    let width = packed_len(D);
-    for i in 0..p.len() {
-        for known in known(geometry, basis, &p.position[i]) {
-            if what.momentum {
-                let mut velocity = p.velocity[i];
-                if matches!(method, Method::Apic) {
-                    velocity += p.affine[i] * known.arm;
-                }
-                main.add(
-                    &known.node,
-                    &(velocity * (p.mass[i] * known.weight)),
-                    p.mass[i] * known.weight,
-                );
-            }
-            if what.force {
-                let stress: Matrix<D> = unpack(&p.stress[i * width..(i + 1) * width]);
-                let mut internal = stress * known.gradient * -p.initial_volume[i];
-                if let Some(hoop) = p.hoop_stress.get(i) {
-                    internal[0] -= p.initial_volume[i] * hoop * known.weight / p.position[i][0];
-                }
-                match method {
-                    Method::Flip(_) => force.add(&known.node, &internal, 0.0),
-                    _ => main.add(&known.node, &(internal * DT), 0.0),
-                }
-            }
-        }
-    }
-}
-
-/// What every point takes from the grid: (velocity gradient, v_r / r).
-fn plain_gather<const D: usize, const N: usize, B: Basis<N>>(
-    geometry: &Geometry<D>,
-    basis: &[B; D],
-    method: Method,
-    p: &mut Particles<D>,
-    what: Wanted,
-    grid: &[Dense<D>; 3],
-) -> Vec<(Matrix<D>, f64)> {
-    let [main, change, second] = grid;
-    let mut rates = Vec::new();
-    for i in 0..p.len() {
-        let nodes = known(geometry, basis, &p.position[i]);
-        let mean = |grid: &Dense<D>| -> Vector<D> {
-            nodes.iter().map(|k| grid.vector(&k.node) * k.weight).sum()
-        };
-        let slope = |grid: &Dense<D>| -> Matrix<D> {
-            nodes
-                .iter()
-                .map(|k| grid.vector(&k.node) * k.gradient.transpose())
-                .sum()
-        };
-        let straining = if what.same { main } else { second };
-        let hoop_rate = mean(straining)[0] / p.position[i][0];
-        rates.push((slope(straining), hoop_rate));
-        if what.rate && !p.hoop_stretch.is_empty() {
-            p.hoop_stretch[i] *= 1.0 + DT * hoop_rate;
-        }
-        if what.velocity {
-            match method {
-                Method::Pic => p.velocity[i] = mean(main),
-                Method::Flip(ratio) => {
-                    p.velocity[i] =
-                        (p.velocity[i] + mean(change)) * ratio + mean(main) * (1.0 - ratio);
-                }
-                Method::Apic => {
-                    p.velocity[i] = mean(main);
-                    let moment: Matrix<D> = (nodes.iter())
-                        .map(|k| main.vector(&k.node) * k.arm.transpose() * k.weight)
-                        .sum();
-                    let inertia: Matrix<D> = nodes
-                        .iter()
-                        .map(|k| k.arm * k.arm.transpose() * k.weight)
-                        .sum();
-                    for a in 0..D {
-                        // C = B D⁻¹, D diagonal; where a point has no inertia, or the basis says so, the slope
-                        let plain = N == 2 || inertia[(a, a)] == 0.0;
-                        let column = if plain {
-                            slope(main).column(a).into()
-                        } else {
-                            moment.column(a) / inertia[(a, a)]
-                        };
-                        p.affine[i].set_column(a, &column);
-                    }
-                }
-            }
-        }
-        if what.position {
-            let velocity = mean(main);
-            p.position[i] += velocity * DT;
-        }
-    }
-    rates
-}
+use super::*;
+use crate::basis::{BasisChoice, BasisVisitor};
+use crate::grid::{Blocks, Node, block_edge};
+use crate::real::wide_instructions;
+use crate::solver::kernels::{Context, Kernels, Stencils};
+use crate::solver::stencil::{CHUNK, Columns, Rates, Reach, Sources, Tile};
+use crate::transfer::{Apic, Flip, MlsApic, Pic, Tpic, Transfer, TransferChoice};
 
 /// Numbers between −1 and 1 (xorshift64*).
 struct Random(u64);
@@ -214,15 +20,27 @@ impl Random {
     }
 }
 
+/// What kind of scene points belong to.
+#[derive(Clone, Copy)]
+struct Kind {
+    axisymmetric: bool,
+    /// Whether the frame is the total Lagrangian one.
+    total: bool,
+}
+
 /// Points all over the grid, some in its corners, with random content, then sorted into blocks and moved as far as a point may
-/// go before it has to be sorted again.
+/// go before it has to be sorted again; in the total frame their present positions are anywhere.
 fn points<const D: usize>(
     geometry: &Geometry<D>,
     kernels: &dyn Kernels<D>,
     affine: bool,
-    axisymmetric: bool,
+    kind: Kind,
     random: &mut Random,
 ) -> (Particles<D>, Blocks<D>) {
+    let Kind {
+        axisymmetric,
+        total,
+    } = kind;
     let edge = block_edge(D, kernels.nodes());
     let h = geometry.cell_size;
     let count = [300, 500, 700][D - 1];
@@ -267,13 +85,30 @@ fn points<const D: usize>(
     blocks.rebuild(edge, &geometry.counts, &[occupied]);
     let mut numbers = |count: usize| -> Vec<f64> { (0..count).map(|_| random.next()).collect() };
     let hoops = if axisymmetric { count } else { 0 };
+    let references = if total { count } else { 0 };
+    // an end of the grid is hit exactly, whatever the cell size
+    let places: Vec<Vector<D>> = places
+        .iter()
+        .map(|x| Vector::from_fn(|a, _| geometry.min[a] + h * x[a]))
+        .collect();
+    let astray: Vec<f64> = numbers(D * references);
     let vectors = numbers(D * count);
     let matrices = numbers(D * D * count);
     let particles = Particles {
-        // an end of the grid is hit exactly, whatever the cell size
-        position: places
-            .iter()
-            .map(|x| Vector::from_fn(|a, _| geometry.min[a] + h * x[a]))
+        // r is not zero
+        position: if total {
+            astray
+                .chunks_exact(D)
+                .map(|x| Vector::from_fn(|a, _| 1.5 + x[a]))
+                .collect()
+        } else {
+            places.clone()
+        },
+        reference_position: places[..references].to_vec(),
+        deformation_gradient: vec![Matrix::identity(); references],
+        first_piola_stress: numbers(D * D * references)
+            .chunks_exact(D * D)
+            .map(Matrix::from_column_slice)
             .collect(),
         velocity: vectors
             .chunks_exact(D)
@@ -342,13 +177,15 @@ impl BasisVisitor for EveryPass {
     fn visit<const N: usize, B: Basis<N>>(self, basis: B) {
         assert_eq!(
             TransferChoice::NAMES,
-            ["pic", "flip", "apic"],
+            ["pic", "flip", "apic", "mls_apic", "tpic"],
             "a new transfer needs its plain form here"
         );
         self.dimensions(basis, Pic, Method::Pic);
         self.dimensions(basis, Flip { ratio: 1.0 }, Method::Flip(1.0));
         self.dimensions(basis, Flip { ratio: 0.9 }, Method::Flip(0.9));
         self.dimensions(basis, Apic, Method::Apic);
+        self.dimensions(basis, MlsApic, Method::MlsApic);
+        self.dimensions(basis, Tpic, Method::Tpic);
     }
 }
 
@@ -359,10 +196,20 @@ impl EveryPass {
         transfer: T,
         method: Method,
     ) {
-        self.check::<1, N, B, T>(basis, transfer, method, [150], false);
-        self.check::<2, N, B, T>(basis, transfer, method, [41, 37], false);
-        self.check::<2, N, B, T>(basis, transfer, method, [41, 37], true);
-        self.check::<3, N, B, T>(basis, transfer, method, [13, 10, 11], false);
+        for total in [false, true] {
+            let plane = Kind {
+                axisymmetric: false,
+                total,
+            };
+            let ring = Kind {
+                axisymmetric: true,
+                total,
+            };
+            self.check::<1, N, B, T>(basis, transfer, method, [150], plane);
+            self.check::<2, N, B, T>(basis, transfer, method, [41, 37], plane);
+            self.check::<2, N, B, T>(basis, transfer, method, [41, 37], ring);
+            self.check::<3, N, B, T>(basis, transfer, method, [13, 10, 11], plane);
+        }
     }
 
     fn check<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
@@ -371,11 +218,15 @@ impl EveryPass {
         transfer: T,
         method: Method,
         cells: [i32; D],
-        axisymmetric: bool,
+        kind: Kind,
     ) {
         let wide = self.wide;
+        let Kind {
+            axisymmetric,
+            total,
+        } = kind;
         let name = format!(
-            "{} {} {D}D wide {wide}",
+            "{} {} {D}D wide {wide} total {total}",
             std::any::type_name::<B>(),
             std::any::type_name::<T>()
         );
@@ -395,7 +246,7 @@ impl EveryPass {
             transfer,
         };
         let mut random = Random(0x9E37_79B9_7F4A_7C15 + D as u64);
-        let (mut fast, blocks) = points(&geometry, &kernels, T::AFFINE, axisymmetric, &mut random);
+        let (mut fast, blocks) = points(&geometry, &kernels, T::AFFINE, kind, &mut random);
         let edge = block_edge(D, N);
         let context = Context {
             geometry: &geometry,
@@ -462,6 +313,9 @@ impl EveryPass {
             change: arrays[1].as_ptr(),
             second: arrays[2].as_ptr(),
         };
+        self.check_exchange(
+            &kernels, &context, &axes, method, &blocks, &fast, &grid, &sources,
+        );
         for [velocity, position, rate, same] in [
             [true, true, true, true],
             [true, true, false, false],
@@ -486,7 +340,7 @@ impl EveryPass {
                 let reach = Reach::new(block.origin, edge, geometry.cells, kernels.shift(0));
                 for first in block.points().step_by(CHUNK) {
                     let rows = first..(first + CHUNK).min(block.points().end);
-                    let mut rates = Rates::zeros();
+                    let mut rates = Rates::default();
                     let rows_here = rows.len();
                     // SAFETY: one thread; the points were sorted, and moved within reach
                     unsafe {
@@ -494,14 +348,21 @@ impl EveryPass {
                             &context, &columns, &tile, &reach, rows, what, &sources, &mut rates,
                         )
                     };
-                    gradients.extend(rates.gradient[..rows_here].iter().copied());
-                    hoops.extend(&rates.hoop[..rows_here]);
+                    if rate {
+                        // SAFETY: just gathered
+                        let (set, hoop) = unsafe { rates.of(rows_here, rows_here) };
+                        gradients.extend_from_slice(set);
+                        hoops.extend_from_slice(hoop);
+                    }
                 }
             }
             if rate {
                 agree(
                     &name,
-                    gradients.iter().flatten(),
+                    gradients
+                        .iter()
+                        .flat_map(|rate| &rate.0)
+                        .flat_map(|column| &column[..D]),
                     plain_rates.iter().flat_map(|(gradient, _)| gradient),
                 );
                 if axisymmetric {
@@ -525,6 +386,61 @@ impl EveryPass {
             );
             agree(&name, &fast.hoop_stretch, &plain.hoop_stretch);
         }
+    }
+
+    /// New velocities as gathered, and their momenta as scattered.
+    #[allow(clippy::too_many_arguments)]
+    fn check_exchange<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+        &self,
+        kernels: &Stencils<D, N, B, T>,
+        context: &Context<'_, D>,
+        axes: &[B; D],
+        method: Method,
+        blocks: &Blocks<D>,
+        points: &Particles<D>,
+        grid: &[Dense<D>; 3],
+        sources: &Sources,
+    ) {
+        let name = format!("exchange {N} {D}D");
+        let geometry = context.geometry;
+        let (mut fast, mut plain) = (points.clone(), points.clone());
+        let mut plain_second = Dense::new(geometry.counts);
+        let mut unused = Dense::new(geometry.counts);
+        plain_gather(geometry, axes, method, &mut plain, Wanted::VELOCITY, grid);
+        let what = Scattered::MOMENTUM;
+        plain_scatter(
+            geometry,
+            axes,
+            method,
+            &plain,
+            what,
+            &mut plain_second,
+            &mut unused,
+        );
+        let mut second = vec![Node::default(); blocks.stored];
+        let count = fast.len();
+        let columns = Columns::new(&mut fast, count, T::AFFINE);
+        for block in &blocks.bodies[0].blocks {
+            // SAFETY: one thread; the points were sorted, and moved within reach
+            unsafe { kernels.exchange(context, &columns, block, sources, second.as_mut_ptr()) };
+        }
+        let second = dense(geometry, blocks, &second);
+        agree(
+            &name,
+            second.nodes.as_flattened(),
+            plain_second.nodes.as_flattened(),
+        );
+        let (fast_velocity, plain_velocity) = (&fast.velocity, &plain.velocity);
+        agree(
+            &name,
+            fast_velocity.iter().flatten(),
+            plain_velocity.iter().flatten(),
+        );
+        agree(
+            &name,
+            fast.affine.iter().flatten(),
+            plain.affine.iter().flatten(),
+        );
     }
 }
 

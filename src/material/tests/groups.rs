@@ -1,0 +1,188 @@
+//! Points computed in groups of four against points computed one by one.
+
+use super::*;
+use crate::math::packed_len;
+use crate::real::Portable;
+
+/// A number of points that is no multiple of four.
+const COUNT: usize = 11;
+
+/// How points are updated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum How {
+    /// One after the other, with single numbers.
+    Singly,
+    /// In groups; with wide instructions if `wide` and the processor has them.
+    Grouped { wide: bool },
+    /// As before, but each point in a call of its own.
+    Alone { wide: bool },
+}
+
+/// Some points of a law, and what they went through.
+struct Block<const D: usize> {
+    points: Box<dyn MaterialPoints<D>>,
+    stress: Vec<f64>,
+    hoop: Vec<f64>,
+    stretches: Vec<f64>,
+}
+
+impl<const D: usize> Block<D> {
+    fn new(law: &LawChoice, plane: Plane) -> Self {
+        let hoops = if plane == Plane::Axisymmetric {
+            COUNT
+        } else {
+            0
+        };
+        Self {
+            points: law.points(plane, COUNT),
+            stress: vec![0.0; COUNT * packed_len(D)],
+            hoop: vec![0.0; hoops],
+            stretches: vec![1.0; hoops],
+        }
+    }
+
+    fn step(&mut self, how: How, rates: &[Rate<D>], hoop_rates: &[f64]) {
+        let dt = 0.25;
+        let hoop_rates = &hoop_rates[..self.hoop.len()];
+        for (stretch, rate) in self.stretches.iter_mut().zip(hoop_rates) {
+            *stretch *= 1.0 + dt * rate;
+        }
+        let each = match how {
+            How::Alone { .. } => 1,
+            _ => COUNT,
+        };
+        for first in (0..COUNT).step_by(each) {
+            let range = first..first + each;
+            let hoops = if self.hoop.is_empty() {
+                0..0
+            } else {
+                range.clone()
+            };
+            let increments = Increments {
+                rates: &rates[range.clone()],
+                hoop_rates: &hoop_rates[hoops.clone()],
+                hoop_stretches: &self.stretches[hoops.clone()],
+                dt,
+                wide: matches!(how, How::Grouped { wide: true } | How::Alone { wide: true }),
+            };
+            let width = packed_len(D);
+            let stress = StressMut {
+                plane: &mut self.stress[first * width..(first + each) * width],
+                hoop: &mut self.hoop[hoops],
+            };
+            // SAFETY: nobody else knows these points.
+            unsafe {
+                match how {
+                    How::Singly => self.points.update_singly(range, stress, &increments),
+                    _ => self.points.update(range, stress, &increments),
+                }
+            }
+        }
+    }
+
+    /// All numbers that the points have.
+    fn numbers(&self) -> Vec<f64> {
+        let mut bits = Vec::new();
+        self.points.state_bits(&mut bits);
+        let memory = bits.into_iter().map(f64::from_bits);
+        let stress = self.stress.iter().chain(&self.hoop).copied();
+        stress.chain(memory).collect()
+    }
+}
+
+/// Runs a law for some steps; in the last one, point 5 is turned inside out.
+fn run<const D: usize>(law: &LawChoice, plane: Plane, how: How, garbage: f64) -> Vec<Vec<f64>> {
+    let mut numbers = Values(10);
+    let mut block = Block::<D>::new(law, plane);
+    let mut history = Vec::new();
+    for step in 0..12 {
+        let mut rates: Vec<Rate<D>> = (0..COUNT)
+            .map(|k| Rate::from(numbers.matrix([0.4, 1e-6][k % 2])))
+            .collect();
+        let hoop_rates: Vec<f64> = (0..COUNT).map(|_| 0.2 * numbers.next()).collect();
+        if step == 11 {
+            rates[5] = Rate([[0.0; 4]; D]);
+            rates[5].0[0][0] = -6.0;
+        }
+        for rate in &mut rates {
+            for column in &mut rate.0 {
+                column[D..].fill(garbage);
+            }
+        }
+        block.step(how, &rates, &hoop_rates);
+        history.push(block.numbers());
+    }
+    history
+}
+
+fn bits(history: &[Vec<f64>]) -> Vec<u64> {
+    history.iter().flatten().map(|x| x.to_bits()).collect()
+}
+
+in_every_dimension! {
+    four_points_at_once_get_what_each_of_them_would_get => same_as_single,
+    what_a_point_gets_depends_neither_on_its_place_nor_on_its_neighbours => same_as_alone,
+}
+
+fn same_as_single<const D: usize>() {
+    every_law::<D>(|law, plane, _, label| {
+        let single = run::<D>(law, plane, How::Singly, 0.0);
+        for wide in [false, true] {
+            let grouped = run::<D>(law, plane, How::Grouped { wide }, f64::NAN);
+            for (step, (single, grouped)) in single.iter().zip(&grouped).enumerate() {
+                let scale = single.iter().copied().filter(|x| x.is_finite());
+                let scale = scale.fold(0.0_f64, |most, x| most.max(x.abs()));
+                assert!(scale > 0.0, "{label}");
+                for (i, (x, y)) in single.iter().zip(grouped).enumerate() {
+                    assert!(
+                        (x - y).abs() <= 1e-13 * scale || (x.is_nan() && y.is_nan()),
+                        "{label}, wide: {wide}, step {step}, number {i}: {x} {y}"
+                    );
+                }
+            }
+            let last = &grouped[11][..COUNT * packed_len(D)];
+            let packed = packed_len(D);
+            assert!(
+                last[5 * packed..6 * packed].iter().all(|x| x.is_nan()),
+                "{label}"
+            );
+            assert!(
+                last[4 * packed..5 * packed].iter().all(|x| !x.is_nan()),
+                "{label}"
+            );
+        }
+    });
+}
+
+fn same_as_alone<const D: usize>() {
+    every_law::<D>(|law, plane, _, label| {
+        for wide in [false, true] {
+            let grouped = run::<D>(law, plane, How::Grouped { wide }, 1.0);
+            let alone = run::<D>(law, plane, How::Alone { wide }, f64::INFINITY);
+            assert_eq!(bits(&grouped), bits(&alone), "{label}, wide: {wide}");
+        }
+    });
+}
+
+#[test]
+fn functions_of_one_point_are_asked_about_one_after_the_other() {
+    type Remembered<R> = ((), (R, crate::tensor::Tensor<R, 2>));
+    let rows: Vec<f64> = (0..20).map(f64::from).collect();
+    let mut numbers = [Portable::splat(0.0); 5];
+    Portable::read_rows(&rows, &mut numbers);
+    let four = Remembered::<Portable>::from_numbers(&numbers);
+    let doubled: Remembered<Portable> = one_by_one(&four, |((), (x, tensor)): Remembered<f64>| {
+        ((), (if x > 5.0 { x } else { -x }, tensor * 2.0))
+    });
+    doubled.to_numbers(&mut numbers);
+    let mut found = vec![0.0; 20];
+    Portable::write_rows(&mut found, &numbers);
+    for (i, (found, given)) in found.iter().zip(&rows).enumerate() {
+        let expected = match i % 5 {
+            0 if *given > 5.0 => *given,
+            0 => -given,
+            _ => 2.0 * given,
+        };
+        assert_eq!(*found, expected);
+    }
+}

@@ -1,0 +1,156 @@
+use super::*;
+
+/// Numbers of every size and kind.
+fn numbers() -> Vec<f64> {
+    let mut all = vec![
+        0.0,
+        -0.0,
+        -1.0,
+        1.0,
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::MIN_POSITIVE,
+        f64::MIN_POSITIVE / 3.0,
+        5e-324,
+        f64::MAX,
+        -f64::MAX,
+        1.0 + f64::EPSILON,
+        1.0 - f64::EPSILON / 2.0,
+        -1.0 + f64::EPSILON / 2.0,
+        std::f64::consts::SQRT_2,
+        std::f64::consts::FRAC_1_SQRT_2,
+        std::f64::consts::E,
+    ];
+    let mut state = 1_u64;
+    for k in 0..400_000 {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        all.push(f64::from_bits(state)); // any exponent, any sign
+        let unit = (state >> 11) as f64 / (1_u64 << 53) as f64;
+        all.push(3.0 * unit);
+        all.push((unit - 0.5) * 1500.0);
+        all.push((unit - 0.5) * 10.0_f64.powi(-(k % 20)));
+    }
+    all.resize(all.len().next_multiple_of(4), 1.0);
+    all
+}
+
+/// The distance of two numbers in units in the last place of the second; 0 if both are the same infinity or NaN.
+fn distance(x: f64, exact: f64) -> f64 {
+    if x == exact || (x.is_nan() && exact.is_nan()) {
+        return 0.0;
+    }
+    let ulp = f64::from_bits(exact.abs().to_bits() + 1) - exact.abs();
+    (x - exact).abs() / ulp
+}
+
+#[inline(always)]
+fn functions<R: Real>() {
+    for four in numbers().chunks_exact(4) {
+        let mut x = [R::splat(0.0)];
+        R::read_rows(four, &mut x);
+        let (ln, ln_1p, exp_m1) = (x[0].ln(), x[0].ln_1p(), x[0].exp_m1());
+        for k in 0..4 {
+            // the library is right to half a unit or little more
+            let error = distance(ln.lane(k), four[k].ln());
+            assert!(error <= 1.0, "ln {:e}: {error} ulp", four[k]);
+            let error = distance(ln_1p.lane(k), four[k].ln_1p());
+            assert!(error <= 2.0, "ln(1 + {:e}): {error} ulp", four[k]);
+            let error = distance(exp_m1.lane(k), four[k].exp_m1());
+            assert!(error <= 3.0, "exp({:e}) - 1: {error} ulp", four[k]);
+        }
+    }
+}
+
+#[inline(always)]
+fn arithmetic<R: Real>() {
+    let (a, b) = ([1.5, -2.0, 1e9, -0.25], [3.0, 0.5, -7.0, f64::NAN]);
+    let (mut x, mut y) = ([R::splat(0.0)], [R::splat(0.0)]);
+    R::read_rows(&a, &mut x);
+    R::read_rows(&b, &mut y);
+    let (x, y) = (x[0], y[0]);
+    let (more, less) = (x.greater(y), x.less(y));
+    let both = (more | less) & !more & x.at_most(y);
+    let chosen = R::select(more, x, y);
+    for k in 0..4 {
+        let (a, b) = (a[k], b[k]);
+        let same = |x: R, exact: f64| assert_eq!(x.lane(k).to_bits(), exact.to_bits());
+        same(x + x, a + a);
+        same(x - x * 2.0, a - a * 2.0);
+        same(x / 3.0, a / 3.0);
+        same(-x, -a);
+        same(x.abs().sqrt(), a.abs().sqrt());
+        same(x.abs().copysign(x), a);
+        same(x.with_lane(k, 5.0), 5.0);
+        same(x.mul_add(R::splat(2.0), R::splat(1.0)), a * 2.0 + 1.0);
+        same(chosen, if a > b { a } else { b });
+        assert_eq!(
+            (more.lane(k), less.lane(k), both.lane(k)),
+            (a > b, a < b, a < b)
+        );
+    }
+    assert!(!more.all() && (more | !more).all());
+}
+
+#[inline(always)]
+fn rows<R: Real, const WIDTH: usize>() {
+    let rows: Vec<f64> = (0..4 * WIDTH).map(|i| i as f64).collect();
+    let mut numbers = [R::splat(0.0); WIDTH];
+    R::read_rows(&rows, &mut numbers);
+    for i in 0..WIDTH {
+        for k in 0..4 {
+            assert_eq!(numbers[i].lane(k), (k * WIDTH + i) as f64);
+        }
+    }
+    let mut written = vec![0.0; rows.len()];
+    R::write_rows(&mut written, &numbers);
+    assert_eq!(written, rows);
+    if WIDTH <= 4 {
+        let padded: Vec<[f64; 4]> = (0..8)
+            .map(|i| [0.0, 1.0, 2.0, 3.0].map(|j| 10.0 * f64::from(i) + j))
+            .collect();
+        R::read_padded(
+            [&padded[1], &padded[3], &padded[5], &padded[7]],
+            &mut numbers,
+        );
+        for i in 0..WIDTH {
+            for k in 0..4 {
+                assert_eq!(numbers[i].lane(k), (10 * (1 + 2 * k) + i) as f64);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn all<R: Real>() {
+    functions::<R>();
+    arithmetic::<R>();
+    rows::<R, 1>();
+    rows::<R, 2>();
+    rows::<R, 3>();
+    rows::<R, 4>();
+    rows::<R, 5>();
+    rows::<R, 6>();
+    rows::<R, 9>();
+    rows::<R, 10>();
+}
+
+#[test]
+fn four_portable_numbers_compute_like_four_single_ones() {
+    all::<Portable>();
+}
+
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn four_wide_numbers_compute_like_four_single_ones() {
+    #[target_feature(enable = "avx2,fma")]
+    fn wide() {
+        all::<Avx>();
+    }
+    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
+        // SAFETY: the instructions were found
+        unsafe { wide() };
+    }
+}
