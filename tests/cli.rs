@@ -456,3 +456,44 @@ fn usage_errors_end_with_code_2_and_help_with_0() {
     }
     assert!(out(&mpm(&folder, &["run", "--help"])).contains("Examples:"));
 }
+
+#[test]
+fn stability_shows_its_edges_and_writes_tables_and_pictures() {
+    let folder = folder("stability");
+    let shown = mpm(
+        &folder,
+        &["stability", "jaumann", "walls", "--output", "maps"],
+    );
+    assert_eq!(code(&shown), 0, "{}", err(&shown));
+    assert!(out(&shown).contains("FAILS") && out(&shown).contains("survives"));
+    for case in ["jaumann", "walls"] {
+        for ending in ["csv", "json", "png"] {
+            let path = folder.join(format!("maps/{case}.{ending}"));
+            assert!(path.exists(), "{}", path.display());
+        }
+    }
+    let again = mpm(&folder, &["stability", "walls", "--output", "maps"]);
+    assert_eq!(code(&again), 2);
+    assert!(err(&again).contains("--force"), "{}", err(&again));
+    let forced = [
+        "stability",
+        "walls",
+        "--output",
+        "maps",
+        "--force",
+        "--json",
+    ];
+    let forced = mpm(&folder, &forced);
+    assert_eq!(code(&forced), 0, "{}", err(&forced));
+    assert_eq!(json(&forced)["cases"][0]["case"], "walls");
+    let list = mpm(&folder, &["stability", "--list"]);
+    assert!(out(&list).contains("courant"), "{}", out(&list));
+    for (arguments, hint) in [
+        (["stability", "wals", "--list"], "did you mean \"walls\"?"),
+        (["stability", "--basis", "kubic"], "known here: cubic"),
+    ] {
+        let wrong = mpm(&folder, &arguments);
+        assert_eq!(code(&wrong), 2);
+        assert!(err(&wrong).contains(hint), "{}", err(&wrong));
+    }
+}

@@ -1,6 +1,6 @@
 //! What the documents say stays true.
 
-use mpm::{input, math};
+use mpm::{input, math, real, tensor};
 use std::path::{Path, PathBuf};
 
 /// The examples of the documents, compiled as they would be in their places.
@@ -12,7 +12,7 @@ mod material {
 }
 #[path = "../docs/examples"]
 mod basis {
-    pub use mpm::basis::{Axis, Basis};
+    pub use mpm::basis::{Basis, Functions};
     #[path = "basis.rs"]
     pub mod example;
 }
@@ -130,13 +130,10 @@ fn documents_show_the_examples_that_are_compiled() {
 fn the_example_law_has_the_stress_that_its_energy_demands() {
     use material::{Deformation, Hyperelastic, Isotropic};
     let law = material::example::Inflatable {
-        elasticity: Isotropic {
-            youngs_modulus: 1e6,
-            poissons_ratio: 0.3,
-        },
+        elasticity: Isotropic::new(1e6, 0.3),
     };
-    let stretched = |stretch: f64| Deformation::<1> {
-        displacement_gradient: math::Matrix::<1>::new(stretch - 1.0),
+    let stretched = |stretch: f64| Deformation::<f64, 1> {
+        displacement_gradient: tensor::Tensor([[stretch - 1.0]]),
         transverse: 0.0,
     };
     let (stretch, step) = (1.2, 1e-6);

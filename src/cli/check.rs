@@ -75,8 +75,8 @@ fn describe(plan: &Plan) -> String {
         (
             "method",
             format!(
-                "basis {}, transfer {}, update {}",
-                plan.basis, plan.transfer, plan.update
+                "basis {}, transfer {}, update {}, frame {}",
+                plan.basis, plan.transfer, plan.update, plan.frame
             ),
         ),
     ];

@@ -8,6 +8,16 @@ use std::process::ExitCode;
 
 /// Makes the output folder ready, and refuses one that already holds a run.
 pub fn prepare(folder: &Path, force: bool) -> Result<(), ExitCode> {
+    prepare_for(folder, force, "run", is_ours)
+}
+
+/// The same for what is not a run: its name, and which files are its own.
+pub fn prepare_for(
+    folder: &Path,
+    force: bool,
+    what: &str,
+    is_ours: fn(&str) -> bool,
+) -> Result<(), ExitCode> {
     let system = |what: &str, path: &Path, error: Error| {
         let message = format!("cannot {what} {}: {error}", path.display());
         fail(code::SYSTEM, &message)
@@ -34,7 +44,7 @@ pub fn prepare(folder: &Path, force: bool) -> Result<(), ExitCode> {
     if !old.is_empty() && !force {
         let name = folder.display();
         let message = format!(
-            "{name} already holds a run; name another folder with --output, or replace the run with --force"
+            "{name} already holds a {what}; name another folder with --output, or replace the {what} with --force"
         );
         return Err(fail(code::INPUT, &message));
     }

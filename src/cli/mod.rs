@@ -1,5 +1,7 @@
 //! The command line: what can be asked, and what the program says and returns.
 
+mod bench;
+mod chart;
 mod check;
 mod folder;
 mod out;
@@ -7,6 +9,7 @@ mod pictures;
 mod plan;
 mod reach;
 mod run;
+mod stability;
 mod validate;
 
 use clap::{Args, Parser, Subcommand};
@@ -35,6 +38,9 @@ Examples:
   mpm run scenarios/bar1d.toml --set time.courant=0.3 --output runs/coarse
   mpm validate                                every case with a known answer
   mpm validate bar1d                          one of them
+  mpm bench --quick                           how fast this machine computes
+  mpm stability courant                       where methods fail: here, the longest stable time steps
+  mpm chart bar1d --tolerance 1e-3            which method is right to 1e-3 at the least cost
 
 Exit codes: 0 done, 1 a validation failed, 2 the input is wrong, 3 the run went wrong, 74 a file or the system failed.
 Results go to standard output, messages to standard error. docs/scenario.md explains every key of a scenario.";
@@ -58,6 +64,15 @@ enum Command {
     /// Compare runs with known answers
     #[command(after_help = validate::EXAMPLES)]
     Validate(validate::ValidateArguments),
+    /// Measure how fast this machine computes
+    #[command(after_help = bench::EXAMPLES)]
+    Bench(bench::BenchArguments),
+    /// Show where methods fail: measured edges beside predicted ones, as tables and pictures
+    #[command(after_help = stability::EXAMPLES)]
+    Stability(stability::StabilityArguments),
+    /// Chart speed against accuracy over methods, resolutions and time steps
+    #[command(after_help = chart::EXAMPLES)]
+    Chart(chart::ChartArguments),
 }
 
 /// A scenario and changes to it.
@@ -98,6 +113,9 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Validate(arguments) => validate::validate(&arguments),
+        Command::Bench(arguments) => bench::bench(&arguments),
+        Command::Stability(arguments) => stability::stability(&arguments),
+        Command::Chart(arguments) => chart::chart(&arguments),
     };
     match done {
         Ok(code) | Err(code) => code,

@@ -39,7 +39,7 @@ impl<const D: usize> BasisVisitor for Reach<'_, D> {
         for body in &self.state.bodies {
             let own: [B; D] =
                 std::array::from_fn(|a| basis.for_spacing(body.spacing[a] / grid.cell_size));
-            for position in &body.particles.position {
+            for position in body.particles.grid_position() {
                 let axes: [_; D] = std::array::from_fn(|a| {
                     let x = (position[a] - grid.min[a]) / grid.cell_size;
                     own[a].axis(x.clamp(0.0, f64::from(grid.cells[a])), grid.cells[a])

@@ -1,9 +1,10 @@
 //! Curves over two axes.
 
 use super::axis::{Axis, Ticks};
-use super::color::{Color, FRAME, GRID, INK, PALETTE};
+use super::color::{Color, FRAME, INK, PALETTE};
 use super::curve;
 use super::font;
+use super::frame::Sides;
 use super::picture::{Anchor, Disc, Picture, Rect, Shape, Size};
 use std::io;
 use std::path::Path;
@@ -242,7 +243,14 @@ impl<'a> Plan<'a> {
             };
         let frame = Rect::new(left, top + 6.0 * u, rect.right, rect.bottom - below * u);
         let x_ticks = self.x.ticks((frame.width() / (105.0 * u)) as usize);
-        self.draw_axes(&frame, &x_ticks, picture);
+        let sides = Sides {
+            rect: self.rect,
+            frame,
+            unit: self.unit,
+            x: (&self.x, &x_ticks, &self.chart.x_label),
+            y: (&self.y, &self.y_ticks, &self.chart.y_label),
+        };
+        sides.draw(picture);
         self.draw_series(&frame, picture);
     }
 
@@ -284,76 +292,6 @@ impl<'a> Plan<'a> {
             x += width + gap;
         }
         top + 4.0 * u
-    }
-
-    fn draw_axes(&self, frame: &Rect, x_ticks: &Ticks, picture: &mut Picture) {
-        let u = self.unit;
-        let size = TICK * u;
-        let mut outside = Vec::new();
-        for tick in &x_ticks.marks {
-            let Some(x) = self
-                .x
-                .share(tick.value)
-                .map(|s| frame.left + s * frame.width())
-            else {
-                continue;
-            };
-            let major = !tick.label.is_empty();
-            if major {
-                picture.line(vec![(x, frame.top), (x, frame.bottom)], GRID, u);
-                let place = (x, frame.bottom + 8.0 * u + font::CAP_HEIGHT * size);
-                picture.text(place, &tick.label, size, INK, Anchor::Middle);
-            }
-            outside.push([
-                (x, frame.bottom),
-                (x, frame.bottom + if major { 5.0 } else { 3.0 } * u),
-            ]);
-        }
-        for tick in &self.y_ticks.marks {
-            let Some(y) = self
-                .y
-                .share(tick.value)
-                .map(|s| frame.bottom - s * frame.height())
-            else {
-                continue;
-            };
-            let major = !tick.label.is_empty();
-            if major {
-                picture.line(vec![(frame.left, y), (frame.right, y)], GRID, u);
-                let place = (frame.left - 8.0 * u, y + 0.5 * font::CAP_HEIGHT * size);
-                picture.text(place, &tick.label, size, INK, Anchor::End);
-            }
-            outside.push([
-                (frame.left, y),
-                (frame.left - if major { 5.0 } else { 3.0 } * u, y),
-            ]);
-        }
-        for line in outside {
-            picture.line(line.to_vec(), FRAME, u);
-        }
-        let corner = vec![
-            (frame.left, frame.top),
-            (frame.left, frame.bottom),
-            (frame.right, frame.bottom),
-        ];
-        picture.line(corner, FRAME, 1.2 * u);
-        let (center, baseline) = (0.5 * (frame.left + frame.right), self.rect.bottom - 4.0 * u);
-        picture.text(
-            (center, baseline),
-            &self.chart.x_label,
-            LABEL * u,
-            INK,
-            Anchor::Middle,
-        );
-        picture.text(
-            (frame.right, baseline),
-            &x_ticks.note,
-            TICK * u,
-            INK,
-            Anchor::End,
-        );
-        let place = (self.rect.left + LABEL * u, 0.5 * (frame.top + frame.bottom));
-        picture.upright_text(place, &self.chart.y_label, LABEL * u, INK);
     }
 
     fn draw_series(&self, frame: &Rect, picture: &mut Picture) {

@@ -25,6 +25,21 @@ impl Cell {
     }
 }
 
+impl Cell {
+    /// A green "survives" or a red "FAILS".
+    pub fn survival(survives: bool) -> Self {
+        let (text, paint) = if survives {
+            ("survives", "\x1b[32m")
+        } else {
+            ("FAILS", "\x1b[1;31m")
+        };
+        Self {
+            text: text.to_owned(),
+            paint,
+        }
+    }
+}
+
 impl<T: fmt::Display> From<T> for Cell {
     fn from(value: T) -> Self {
         // A line break would tear the table.

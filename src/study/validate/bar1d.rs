@@ -13,8 +13,9 @@
 //! change nothing at all.
 
 use super::compare::{chart, curve, largest, map, orders};
+use super::problem::{SECOND, displacement_error};
 use super::swing::Swing;
-use super::{Case, CaseError, Recorded, Report, rms, set};
+use super::{Case, CaseError, Expected, Layout, Problem, Recorded, Report, rms, set};
 use crate::report::Style;
 use std::f64::consts::PI;
 
@@ -25,6 +26,56 @@ pub const CASE: Case = Case {
     reference: "closed form of the linear wave equation; sine-Galerkin solution of the nonlinear one",
     run,
 };
+
+/// One period of small motion, along x of 1D, 2D or 3D.
+pub const PROBLEM: Problem = Problem {
+    name: "bar1d",
+    about: "an elastic bar, held at one end, vibrates in its first mode for a period",
+    norm: "displacement, relative L2 norm over points and recorded times",
+    reference: "closed form of the linear wave equation",
+    cells_are: "along the bar",
+    dimensions: &[1, 2, 3],
+    layout,
+    error: |run| {
+        displacement_error(run, |x, time| {
+            let swing = SMALL_V0 / OMEGA * (OMEGA * time).sin();
+            [swing * (PI * x[0] / (2.0 * LENGTH)).sin(), 0.0, 0.0]
+        })
+    },
+    cells: |_| &[8, 16, 32, 64],
+    points: &[1, 2, 3],
+    doubt: 0.0,
+    expected: &[
+        Expected { basis: "linear", order: 2.0, source: SECOND },
+        Expected { basis: "gimp", order: 2.0, source: SECOND },
+        Expected { basis: "quadratic", order: 2.0, source: SECOND },
+    ],
+};
+
+/// So slow, m/s, that the nonlinear part of the law is below 1e-7 of the motion.
+const SMALL_V0: f64 = 1e-6;
+
+/// The bar along x, one cell wide, for a period.
+fn layout(dimension: usize, cells: u32) -> Layout {
+    let size = LENGTH / f64::from(cells);
+    let maxima: Vec<String> = (0..dimension)
+        .map(|a| if a == 0 { LENGTH } else { size }.to_string())
+        .collect();
+    let max = format!("[{}]", maxima.join(", "));
+    let velocity = ["\"v0 * sin(pi * x / (50 m))\"", "0.0", "0.0"][..dimension].join(", ");
+    Layout {
+        text: along(dimension, 0),
+        overrides: vec![
+            format!("grid.cell_size={size}"),
+            format!("grid.max={max}"),
+            format!("body[0].shape.box.max={max}"),
+            format!("constants.v0=\"{SMALL_V0} m/s\""),
+            format!("body[0].velocity=[{velocity}]"),
+            "time={ end = 10.0, courant = 0.1 }".into(),
+            "output.every=1.0".into(),
+        ],
+    }
+}
 
 const SCENARIO: &str = include_str!("../../../scenarios/bar1d.toml");
 const LENGTH: f64 = 25.0;

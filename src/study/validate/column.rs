@@ -10,7 +10,8 @@
 //! Damping only brings it to rest: e^{−αt/2} is 4·10⁻¹¹ at the end.
 
 use super::compare::{chart, curve, orders, root_mean};
-use super::{Case, CaseError, Recorded, Report, set};
+use super::problem::cell_size;
+use super::{Case, CaseError, Layout, Problem, Recorded, Report, set};
 use crate::observe::Point;
 use crate::report::Style;
 
@@ -22,7 +23,27 @@ pub const CASE: Case = Case {
     run,
 };
 
-const SCENARIO: &str = include_str!("../../../scenarios/column.toml");
+/// The stress at rest.
+pub const PROBLEM: Problem = Problem {
+    name: "column",
+    about: "a column settles by 5 % under its own weight; points cross cells",
+    norm: "stress at rest, L2 norm over points relative to that of the exact stress",
+    reference: CASE.reference,
+    cells_are: "over the height",
+    dimensions: &[1],
+    layout: |_, cells| Layout {
+        text: SCENARIO.into(),
+        overrides: vec![cell_size(LENGTH, cells), "output.every=\"6 s\"".into()],
+    },
+    // the root mean square of the exact stress is ρ₀gL/√3
+    error: |run| stress_error(&rest(run)) * 3.0_f64.sqrt(),
+    cells: |_| &[8, 16, 32, 64],
+    points: &[2, 3, 4],
+    doubt: 0.0,
+    expected: &[],
+};
+
+pub(super) const SCENARIO: &str = include_str!("../../../scenarios/column.toml");
 const LENGTH: f64 = 10.0;
 /// ρ₀g, N/m³.
 const WEIGHT: f64 = 1e4;
@@ -138,7 +159,7 @@ fn settle(report: &mut Report, basis: &str, rate: &str, size: f64) -> Result<Rec
 }
 
 /// The points at the end.
-fn rest(column: &Recorded) -> Vec<Point> {
+pub(super) fn rest(column: &Recorded) -> Vec<Point> {
     column
         .memory
         .frames
@@ -157,7 +178,7 @@ fn middle(i: usize, n: usize) -> f64 {
     (i as f64 + 0.5) * LENGTH / n as f64
 }
 
-fn stress_error(points: &[Point]) -> f64 {
+pub(super) fn stress_error(points: &[Point]) -> f64 {
     let square = |i: usize, point: &Point| {
         let exact = -WEIGHT * (LENGTH - middle(i, points.len()));
         ((point.stress[0][0] - exact) / (WEIGHT * LENGTH)).powi(2)

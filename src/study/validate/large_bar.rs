@@ -9,8 +9,10 @@
 
 use super::compare::{chart, curve, orders, root_mean};
 use super::swing::Swing;
-use super::{Case, CaseError, Recorded, Report, set};
+use super::problem::{cell_size, displacement_error};
+use super::{Case, CaseError, Layout, Problem, Recorded, Report, set};
 use crate::report::Style;
+use std::sync::OnceLock;
 
 /// The case.
 pub const CASE: Case = Case {
@@ -20,18 +22,70 @@ pub const CASE: Case = Case {
     run,
 };
 
-const SCENARIO: &str = include_str!("../../../scenarios/large_bar.toml");
+/// Half a period at 10 % of strain.
+pub const PROBLEM: Problem = Problem {
+    name: "large_bar",
+    about: "a bar swings by 10 % of strain for half a period; points cross cells",
+    norm: "displacement, relative L2 norm over points and recorded times",
+    reference: CASE.reference,
+    cells_are: "along the bar",
+    dimensions: &[1],
+    layout: |_, cells| {
+        let length = LENGTH / f64::from(cells);
+        // a quarter more for the swing
+        let max = LENGTH + length * (f64::from(cells) / 4.0).ceil();
+        Layout {
+            text: SCENARIO.into(),
+            overrides: vec![
+                cell_size(LENGTH, cells),
+                format!("grid.max=[{max}]"),
+                "time.end=\"5 s\"".into(),
+                format!("output.every={RECORD}"),
+            ],
+        }
+    },
+    error: |run| {
+        displacement_error(run, |x, time| {
+            let record = (time / RECORD).round() as usize;
+            let swing = reference().get(record);
+            [swing.map_or(f64::NAN, |swing| swing.displacement(x[0])), 0.0, 0.0]
+        })
+    },
+    cells: |_| &[8, 16, 32, 64],
+    points: &[2, 3, 4],
+    doubt: 0.0,
+    expected: &[],
+};
+
+/// Time between two recorded rows of a chart, s.
+const RECORD: f64 = 0.5;
+
+/// The reference at the recorded times of half a period.
+fn reference() -> &'static [Swing] {
+    static REFERENCE: OnceLock<Vec<Swing>> = OnceLock::new();
+    REFERENCE.get_or_init(|| {
+        let mut swing = Swing::new(LENGTH, 1.0, WAVE_SPEED * WAVE_SPEED, 1.0);
+        let mut all = vec![swing.clone()];
+        for _ in 0..10 {
+            swing.advance(RECORD, 0.02);
+            all.push(swing.clone());
+        }
+        all
+    })
+}
+
+pub(super) const SCENARIO: &str = include_str!("../../../scenarios/large_bar.toml");
 const LENGTH: f64 = 25.0;
 const WAVE_SPEED: f64 = 10.0;
 const BASES: [&str; 4] = ["linear", "gimp", "quadratic", "cubic"];
 const CELLS: [f64; 3] = [16.0, 32.0, 64.0];
 
 /// How a motion compares with the reference, over all recorded times.
-struct Errors {
+pub(super) struct Errors {
     /// Root mean square of the stress error over E v₀/c.
-    stress: f64,
+    pub(super) stress: f64,
     /// Root mean square of the displacement error over v₀/ω.
-    displacement: f64,
+    pub(super) displacement: f64,
 }
 
 fn run(report: &mut Report) -> Result<(), CaseError> {
@@ -73,7 +127,7 @@ fn swing(
     report.run_with_frames(SCENARIO, &set(&overrides))
 }
 
-fn compare(bar: &Recorded, speed: f64) -> Errors {
+pub(super) fn compare(bar: &Recorded, speed: f64) -> Errors {
     let frames = &bar.memory.frames;
     let mut reference = Swing::new(LENGTH, 1.0, WAVE_SPEED * WAVE_SPEED, speed);
     let (mut stress, mut displacement) = (0.0, 0.0);

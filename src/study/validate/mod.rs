@@ -4,9 +4,11 @@
 
 mod compare;
 mod history;
+mod problem;
 mod report;
 mod swing;
 
+pub use problem::{Expected, Layout, PROBLEMS, Problem};
 pub use report::{Check, Report};
 
 use crate::observe::Memory;
@@ -43,6 +45,8 @@ cases! {
     column,
     large_bar,
     manufactured,
+    vibration,
+    vortex,
     uniaxial,
     hydrostatic,
     shear_box,
@@ -50,6 +54,8 @@ cases! {
     rotation,
     axisymmetric,
     cantilever,
+    survivors,
+    total_lagrangian,
 }
 
 /// Why a case could not be finished.

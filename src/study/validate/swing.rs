@@ -13,6 +13,7 @@ const MODES: usize = 40;
 const PLACES: usize = 4 * MODES;
 
 /// A swinging bar.
+#[derive(Clone)]
 pub struct Swing {
     length: f64,
     density: f64,

@@ -8,7 +8,8 @@
 //! histories are what fronts of that width make: at d = 8L, 0.09 L, or 2 % of the period for each of two passages.
 
 use super::compare::{chart, curve, largest, map};
-use super::{Case, CaseError, Recorded, Report, rms};
+use super::problem::displacement_error;
+use super::{Case, CaseError, Expected, Layout, Problem, Recorded, Report, rms};
 use crate::report::Style;
 
 /// The case.
@@ -17,6 +18,42 @@ pub const CASE: Case = Case {
     claim: "a pull runs through a bar with the wave speed, doubles at the wall, and moves the tip to twice the static reach",
     reference: "d'Alembert's solution of the wave equation",
     run,
+};
+
+const FRONT: &str = "expected: a front smeared over (d h^2)^(1/3) leaves a corner of the displacement off by as much over as much, 2/3 (1 + 1/2)";
+
+/// One period after the pull.
+pub const PROBLEM: Problem = Problem {
+    name: "wave",
+    about: "a bar that is suddenly pulled at its free end: a front runs up and down for a period",
+    norm: "displacement, relative L2 norm over points and recorded times",
+    reference: CASE.reference,
+    cells_are: "along the bar",
+    dimensions: &[1],
+    layout: |_, cells| {
+        let size = LENGTH / f64::from(cells);
+        // the bar, and cells to move in
+        let max = LENGTH + 2.0 * size;
+        Layout {
+            text: SCENARIO.into(),
+            overrides: vec![
+                format!("grid.cell_size={size}"),
+                format!("grid.max=[{max}]"),
+                "time.end=0.4".into(),
+                "output.every=0.02".into(),
+            ],
+        }
+    },
+    error: |run| displacement_error(run, |x, time| [displacement(x[0], time), 0.0, 0.0]),
+    cells: |_| &[16, 32, 64, 128],
+    points: &[1, 2, 3],
+    doubt: 0.0,
+    expected: &[
+        Expected { basis: "linear", order: 1.0, source: FRONT },
+        Expected { basis: "gimp", order: 1.0, source: FRONT },
+        Expected { basis: "quadratic", order: 1.0, source: FRONT },
+        Expected { basis: "cubic", order: 1.0, source: FRONT },
+    ],
 };
 
 const SCENARIO: &str = include_str!("../../../scenarios/wave.toml");

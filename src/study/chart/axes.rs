@@ -1,0 +1,292 @@
+//! What a chart varies. An axis is one entry of [`AXES`]: its option, its column and its place in a scenario follow from it.
+
+use crate::basis::BasisChoice;
+use crate::scenario::ReferenceFrame;
+use crate::transfer::TransferChoice;
+use std::fmt;
+
+/// One thing that a chart varies.
+pub struct Axis {
+    /// Name of its option and of its column.
+    pub name: &'static str,
+    /// What it is, for the help of the command.
+    pub help: &'static str,
+    /// Which values it can have.
+    pub values: Values,
+    /// Where in a scenario it goes.
+    pub place: Place,
+}
+
+/// Which values an axis can have.
+#[derive(Clone, Copy)]
+pub enum Values {
+    /// Some names.
+    Names(&'static [&'static str]),
+    /// Whole numbers from 1 up to this one.
+    Counts(u32),
+    /// Positive numbers up to this one.
+    Numbers(f64),
+}
+
+/// Where in a scenario a value goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// A key that takes the value as it is.
+    Key(&'static str),
+    /// `particles_per_cell` of every body.
+    Points,
+    /// `time.courant`, in place of a fixed step.
+    Courant,
+    /// Asked from the subject: how many cells, how many dimensions.
+    Layout,
+}
+
+/// Every axis, those that vary slowest first.
+pub const AXES: &[Axis] = &[
+    Axis {
+        name: "dimensions",
+        help: "Dimensions to set the case up in",
+        values: Values::Counts(3),
+        place: Place::Layout,
+    },
+    Axis {
+        name: "frame",
+        help: "Configurations that shape functions are taken in",
+        values: Values::Names(&ReferenceFrame::NAMES),
+        place: Place::Key("method.frame"),
+    },
+    Axis {
+        name: "basis",
+        help: "Shape functions",
+        values: Values::Names(BasisChoice::NAMES),
+        place: Place::Key("method.basis"),
+    },
+    Axis {
+        name: "transfer",
+        help: "Velocity transfers",
+        values: Values::Names(TransferChoice::NAMES),
+        place: Place::Key("method.transfer"),
+    },
+    Axis {
+        name: "update",
+        help: "When stresses are updated",
+        values: Values::Names(&["usf", "usl", "musl"]),
+        place: Place::Key("method.update"),
+    },
+    Axis {
+        name: "points",
+        help: "Points a cell along each axis",
+        values: Values::Counts(16),
+        place: Place::Points,
+    },
+    Axis {
+        name: "courant",
+        help: "Courant numbers",
+        values: Values::Numbers(5.0),
+        place: Place::Courant,
+    },
+    Axis {
+        name: "cells",
+        help: "Resolutions, in cells (a scenario file: along x)",
+        values: Values::Counts(1 << 20),
+        place: Place::Layout,
+    },
+];
+
+/// A value on an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// A name.
+    Name(&'static str),
+    /// A whole number.
+    Count(u32),
+    /// A number.
+    Number(f64),
+}
+
+impl Value {
+    /// As a number; NaN if it is a name.
+    pub fn number(self) -> f64 {
+        match self {
+            Self::Count(count) => f64::from(count),
+            Self::Number(number) => number,
+            Self::Name(_) => f64::NAN,
+        }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Name(name) => f.write_str(name),
+            Self::Count(count) => count.fmt(f),
+            Self::Number(number) => number.fmt(f),
+        }
+    }
+}
+
+impl Axis {
+    /// Reads a value, or says what is wrong with the text.
+    pub fn read(&self, text: &str) -> Result<Value, String> {
+        let option = self.name;
+        match self.values {
+            Values::Names(names) => {
+                let found = names.iter().find(|name| **name == text);
+                found.map(|name| Value::Name(name)).ok_or_else(|| {
+                    let all = names.join(", ");
+                    format!("--{option}: there is no \"{text}\"; known: {all}")
+                })
+            }
+            Values::Counts(most) => match text.parse::<u32>() {
+                Ok(count) if (1..=most).contains(&count) => Ok(Value::Count(count)),
+                _ => Err(format!(
+                    "--{option}: \"{text}\" is not a whole number from 1 to {most}"
+                )),
+            },
+            Values::Numbers(most) => match text.parse::<f64>() {
+                Ok(number) if number > 0.0 && number <= most => Ok(Value::Number(number)),
+                _ => Err(format!(
+                    "--{option}: \"{text}\" is not a number above 0 and up to {most}"
+                )),
+            },
+        }
+    }
+
+    /// All names, where values are names.
+    pub fn names(&self) -> Vec<Value> {
+        match self.values {
+            Values::Names(names) => names.iter().map(|name| Value::Name(name)).collect(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Index of the axis of a name.
+///
+/// # Panics
+/// If there is none.
+pub fn axis(name: &str) -> usize {
+    let found = AXES.iter().position(|axis| axis.name == name);
+    found.unwrap_or_else(|| panic!("no axis is called {name}"))
+}
+
+/// One value on each axis, in their order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting(pub Vec<Value>);
+
+impl Setting {
+    /// The value on an axis.
+    pub fn get(&self, name: &str) -> Value {
+        self.0[axis(name)]
+    }
+
+    /// A whole number on an axis; 0 where it is something else.
+    pub fn count(&self, name: &str) -> u32 {
+        match self.get(name) {
+            Value::Count(count) => count,
+            _ => 0,
+        }
+    }
+
+    /// A number on an axis, as such; NaN where it is a name.
+    pub fn number(&self, name: &str) -> f64 {
+        self.get(name).number()
+    }
+
+    /// Whether two settings differ on this axis at most.
+    pub fn agrees_but_for(&self, other: &Self, name: &str) -> bool {
+        let skip = axis(name);
+        let mut pairs = self.0.iter().zip(&other.0).enumerate();
+        pairs.all(|(i, (a, b))| i == skip || a == b)
+    }
+
+    /// The method alone: the names.
+    pub fn method(&self) -> String {
+        let names = self.0.iter().filter_map(|value| match value {
+            Value::Name(name) => Some(*name),
+            _ => None,
+        });
+        names.collect::<Vec<_>>().join(" ")
+    }
+
+    /// What does not depend on the layout, as overrides `KEY=VALUE` of a scenario with so many bodies and this end, s.
+    pub fn overrides(&self, bodies: usize, end: f64) -> Vec<String> {
+        let mut all = Vec::new();
+        for (axis, value) in AXES.iter().zip(&self.0) {
+            match axis.place {
+                Place::Key(key) => all.push(format!("{key}=\"{value}\"")),
+                Place::Points => {
+                    all.extend(
+                        (0..bodies).map(|body| format!("body[{body}].particles_per_cell={value}")),
+                    );
+                }
+                Place::Courant => {
+                    all.push(format!("time={{ end = {end:e}, courant = {value} }}"));
+                }
+                Place::Layout => {}
+            }
+        }
+        all
+    }
+}
+
+/// The values of each axis, in the order of [`AXES`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep(pub Vec<Vec<Value>>);
+
+impl Sweep {
+    /// Every combination; the last axis varies fastest.
+    pub fn settings(&self) -> Vec<Setting> {
+        let mut all = vec![Vec::new()];
+        for values in &self.0 {
+            let longer = |start: &Vec<Value>| {
+                let start = start.clone();
+                values
+                    .iter()
+                    .map(move |value| [&start[..], &[*value]].concat())
+                    .collect::<Vec<_>>()
+            };
+            all = all.iter().flat_map(longer).collect();
+        }
+        all.into_iter().map(Setting).collect()
+    }
+
+    /// The values on an axis.
+    pub fn on(&self, name: &str) -> &[Value] {
+        &self.0[axis(name)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sweep_has_every_combination_once_and_cells_vary_fastest() {
+        let mut values: Vec<Vec<Value>> = AXES.iter().map(|_| vec![Value::Count(1)]).collect();
+        values[axis("cells")] = vec![Value::Count(8), Value::Count(16)];
+        values[axis("basis")] = vec![Value::Name("linear"), Value::Name("cubic")];
+        let settings = Sweep(values).settings();
+        let seen: Vec<_> = settings
+            .iter()
+            .map(|s| (s.get("basis").to_string(), s.count("cells")))
+            .collect();
+        let expected = [("linear", 8), ("linear", 16), ("cubic", 8), ("cubic", 16)];
+        assert_eq!(seen, expected.map(|(name, n)| (name.to_string(), n)));
+        assert!(settings[0].agrees_but_for(&settings[1], "cells"));
+        assert!(!settings[0].agrees_but_for(&settings[2], "cells"));
+    }
+
+    #[test]
+    fn a_value_that_cannot_be_is_refused_with_what_can() {
+        let basis = &AXES[axis("basis")];
+        assert!(
+            basis
+                .read("qudratic")
+                .is_err_and(|why| why.contains("quadratic"))
+        );
+        let courant = &AXES[axis("courant")];
+        assert!(courant.read("0").is_err() && courant.read("nan").is_err());
+        assert_eq!(courant.read("0.3"), Ok(Value::Number(0.3)));
+    }
+}

@@ -1,0 +1,74 @@
+//! What a run costs, counted in a way that no machine changes.
+
+use crate::basis::{Basis, BasisVisitor};
+use crate::scenario::{ReferenceFrame, Scenario, Scheme};
+
+/// How often a step visits the stencil of every point: update stress last scatters and gathers once; the others map momenta (or
+/// forces) and gather velocities a second time. Loads are not counted: they are the same for all methods.
+pub fn passes(update: Scheme) -> u32 {
+    match update {
+        Scheme::UpdateStressLast => 2,
+        Scheme::UpdateStressFirst | Scheme::ModifiedUpdateStressLast => 4,
+    }
+}
+
+/// Nodes in the stencil of a point: nᵈ for n functions an axis.
+pub fn stencil_nodes(scenario: &Scenario) -> u64 {
+    struct Nodes;
+    impl BasisVisitor for Nodes {
+        type Output = u64;
+
+        fn visit<const N: usize, B: Basis<N>>(self, _: B) -> u64 {
+            N as u64
+        }
+    }
+    scenario
+        .method
+        .basis
+        .visit(Nodes)
+        .pow(scenario.dimension as u32)
+}
+
+/// Small tensor passes that a step in this frame adds, each as dear as one more node a point: the total Lagrangian frame turns
+/// rates before the law and stresses after it. What sorting costs the updated frame is not counted.
+pub fn tensor_passes(frame: ReferenceFrame) -> u32 {
+    match frame {
+        ReferenceFrame::Updated => 0,
+        ReferenceFrame::Total => 2,
+    }
+}
+
+/// Work of a run: steps × points × (nodes in a stencil × passes + tensor passes), the number of times that a point meets a node.
+pub fn work(scenario: &Scenario, points: usize, steps: u64) -> f64 {
+    let method = &scenario.method;
+    let visits = stencil_nodes(scenario) * u64::from(passes(method.update))
+        + u64::from(tensor_passes(method.frame));
+    points as f64 * steps as f64 * visits as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::parse;
+
+    #[test]
+    fn the_total_frame_costs_two_nodes_a_point_more() {
+        let text = include_str!("../../../scenarios/bar1d.toml");
+        let of = |frame: &str| {
+            let overrides = [
+                format!("method.frame=\"{frame}\""),
+                "method.basis=\"quadratic\"".into(),
+                "method.update=\"usl\"".into(),
+            ];
+            work(
+                &parse("bar1d", text, &overrides)
+                    .expect("a scenario")
+                    .scenario,
+                10,
+                7,
+            )
+        };
+        assert_eq!(of("updated"), 70.0 * 6.0);
+        assert_eq!(of("total"), 70.0 * 8.0);
+    }
+}

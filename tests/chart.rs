@@ -1,0 +1,218 @@
+//! `mpm chart` as its users meet it.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const BAR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/bar1d.toml");
+
+/// A folder of its own for one test, empty at the start.
+fn folder(test: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("chart_{test}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder in the target folder");
+    folder
+}
+
+fn chart(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mpm"))
+        .current_dir(folder)
+        .arg("chart")
+        .args(arguments)
+        .output()
+        .expect("the program starts")
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("no signal")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("text")
+}
+
+fn json(output: &Output) -> serde_json::Value {
+    serde_json::from_slice(&output.stdout).expect("one JSON object on standard output")
+}
+
+const SMALL: [&str; 14] = [
+    "manufactured",
+    "--basis",
+    "linear,quadratic",
+    "--transfer",
+    "flip",
+    "--update",
+    "musl",
+    "--points",
+    "2",
+    "--courant",
+    "0.4",
+    "--repeat",
+    "1",
+    "--json",
+];
+
+#[test]
+fn a_small_chart_has_every_run_a_frontier_and_second_order() {
+    let folder = folder("small");
+    fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+        [&SMALL[..], &["--frame", "updated", "--cells", "8,16"], more].concat()
+    }
+    let output = chart(&folder, &with(&["--tolerance", "0.05"]));
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let results = json(&output);
+    assert_eq!(results["runs"].as_array().map(Vec::len), Some(4));
+    for series in results["orders"].as_array().expect("orders") {
+        let order = series["order_last_two"].as_f64().expect("an order");
+        assert!((order - 2.0).abs() < 0.2, "{series}");
+    }
+    let frontier = results["frontier"].as_array().expect("a frontier");
+    let errors: Vec<f64> = frontier
+        .iter()
+        .map(|r| r["error"].as_f64().unwrap())
+        .collect();
+    assert!(!errors.is_empty() && errors.windows(2).all(|pair| pair[0] > pair[1]));
+    assert!(results["cheapest"]["error"].as_f64().expect("one") <= 0.05);
+
+    let made = folder.join("charts/manufactured");
+    let rows = std::fs::read_to_string(made.join("chart.csv")).expect("a table");
+    assert_eq!(rows.lines().count(), 5, "{rows}");
+    for name in ["orders.csv", "chart_wall.png", "chart_work.png"] {
+        assert!(made.join(name).is_file(), "{name}");
+    }
+
+    let refused = chart(&folder, &with(&[]));
+    assert_eq!(code(&refused), 2);
+    assert!(text(&refused.stderr).contains("--force"));
+    let strict = chart(&folder, &with(&["--force", "--tolerance", "1e-9"]));
+    assert_eq!(code(&strict), 1, "nothing is so accurate");
+}
+
+#[test]
+fn the_frame_is_an_axis_that_agrees_for_small_motion() {
+    let folder = folder("frame");
+    let arguments = [
+        &SMALL[..],
+        &["--cells", "16", "--frame", "updated,total"],
+        &["--tolerance", "0.1"],
+    ]
+    .concat();
+    let output = chart(&folder, &arguments);
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let results = json(&output);
+    let runs = results["runs"].as_array().expect("runs");
+    assert_eq!(runs.len(), 4);
+    let (updated, total) = runs.split_at(2);
+    for (updated, total) in updated.iter().zip(total) {
+        assert_eq!(updated["frame"], "updated");
+        assert_eq!(total["frame"], "total");
+        assert_eq!(updated["steps"], total["steps"]);
+        let of = |run: &serde_json::Value, name: &str| run[name].as_f64().expect("a number");
+        let ratio = of(total, "error") / of(updated, "error");
+        assert!((ratio - 1.0).abs() < 1e-2, "{results}");
+        assert!(of(total, "work") > of(updated, "work"));
+    }
+    let rows = std::fs::read_to_string(folder.join("charts/manufactured/chart.csv"));
+    assert!(
+        rows.expect("a table")
+            .starts_with("dimensions,frame,basis,")
+    );
+    let wrong = chart(&folder, &["manufactured", "--frame", "eulerian"]);
+    assert_eq!(code(&wrong), 2);
+    assert!(text(&wrong.stderr).contains("--frame"));
+}
+
+#[test]
+fn a_run_that_blows_up_is_on_the_chart_as_such() {
+    let folder = folder("failed");
+    let mut arguments = SMALL.to_vec();
+    arguments[10] = "0.4,5";
+    // many cells, or recorded times would keep the steps short
+    arguments.extend(["--frame", "updated", "--cells", "64"]);
+    let output = chart(&folder, &arguments);
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let results = json(&output);
+    let runs = results["runs"].as_array().expect("runs");
+    let status = |courant: f64| {
+        let run = runs.iter().find(|run| run["courant"] == courant);
+        run.expect("the run")["status"]
+            .as_str()
+            .expect("a status")
+            .to_string()
+    };
+    assert_eq!(runs.len(), 4);
+    assert_eq!(status(0.4), "done");
+    assert_ne!(status(5.0), "done");
+}
+
+#[test]
+fn everything_that_is_wrong_is_said_at_once() {
+    let folder = folder("wrong");
+    let arguments = [
+        "manufactured",
+        "--basis",
+        "qudratic",
+        "--cells",
+        "0",
+        "--courant",
+        "fast",
+        "--dimensions",
+        "4",
+        "--tolerance",
+        "zero",
+    ];
+    let output = chart(&folder, &arguments);
+    assert_eq!(code(&output), 2);
+    let said = text(&output.stderr);
+    for option in [
+        "--basis",
+        "--cells",
+        "--courant",
+        "--dimensions",
+        "--tolerance",
+    ] {
+        assert!(said.contains(option), "{option} is missing in {said}");
+    }
+    assert!(said.contains("5 problems"), "{said}");
+    assert!(!folder.join("charts").exists(), "nothing is written");
+    let unknown = chart(&folder, &["manufacturd"]);
+    assert_eq!(code(&unknown), 2);
+    assert!(text(&unknown.stderr).contains("did you mean \"manufactured\"?"));
+    let missing = chart(&folder, &["nowhere.toml"]);
+    assert_eq!(code(&missing), 2);
+}
+
+#[test]
+fn a_scenario_is_charted_against_a_finer_run_of_itself() {
+    let folder = folder("file");
+    let arguments = [
+        BAR,
+        "--set",
+        "time.end=10",
+        "--set",
+        "output.every=1",
+        "--set",
+        "grid.max=[\"32 m\"]",
+        "--basis",
+        "linear",
+        "--transfer",
+        "flip",
+        "--update",
+        "musl",
+        "--cells",
+        "16,32",
+        "--points",
+        "2",
+        "--courant",
+        "0.3",
+        "--repeat",
+        "1",
+        "--json",
+    ];
+    let output = chart(&folder, &arguments);
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let results = json(&output);
+    let runs = results["runs"].as_array().expect("runs");
+    let error = |i: usize| runs[i]["error"].as_f64().expect("an error");
+    assert!(error(1) < error(0) && error(0) < 0.5, "{results}");
+    assert!(folder.join("charts/bar1d/chart.csv").is_file());
+}
