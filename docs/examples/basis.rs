@@ -1,7 +1,8 @@
 //! Quadratic B-splines that are the same everywhere: the outermost functions stand half a cell outside the grid.
 
-use super::{Axis, Basis};
+use super::{Basis, Functions};
 use crate::input::{Parameters, Reader};
+use crate::real::Real;
 
 /// With s = x − c in cell c the functions c, c + 1, c + 2 are (1 − s)²/2, 3/4 − (s − 1/2)², s²/2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,15 +15,13 @@ impl Parameters for Ghosted {
 }
 
 impl Basis<3> for Ghosted {
-    fn axis(&self, x: f64, cells: i32) -> Axis<3> {
-        let first = (x as i32).min(cells - 1);
-        let s = x - f64::from(first);
-        let r = 1.0 - s;
-        Axis {
-            first,
-            weight: [0.5 * r * r, 0.5 + r * s, 0.5 * s * s],
+    #[inline(always)]
+    fn functions<R: Real>(&self, s: R) -> Functions<R, 3> {
+        let r = R::splat(1.0) - s;
+        Functions {
+            weight: [r * r * 0.5, r * s + 0.5, s * s * 0.5],
             slope: [-r, r - s, s],
-            arm: [-0.5 - s, 0.5 - s, 1.5 - s],
+            arm: [-s - 0.5, -s + 0.5, -s + 1.5],
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Deformation, Hyperelastic, Isotropic, Plane, Stress};
 use crate::input::{Parameters, Reader};
-use crate::math::{Matrix, largest_eigenvalue};
+use crate::real::Real;
 
 /// W = μ/2 (tr b − 3) − μ ln J + λ/2 (J − 1)² and so τ = μ (b − I) + λ J (J − 1) I.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,30 +22,31 @@ impl Hyperelastic for Inflatable {
         self.elasticity
     }
 
-    fn stress<const D: usize>(&self, deformation: &Deformation<D>) -> Stress<D> {
+    #[inline(always)]
+    fn stress<R: Real, const D: usize>(&self, deformation: &Deformation<R, D>) -> Stress<R, D> {
         let (lambda, mu) = self.elasticity.lame();
         let change = deformation.volume_change(); // J − 1
-        let pressure = lambda * (1.0 + change) * change;
+        let pressure = (change + 1.0) * change * lambda;
         Stress {
-            plane: deformation.finger_less_one() * mu + Matrix::identity() * pressure,
-            transverse: mu * deformation.transverse_finger_less_one() + pressure,
+            plane: (deformation.finger_less_one() * mu).plus_diagonal(pressure),
+            transverse: deformation.transverse_finger_less_one() * mu + pressure,
         }
     }
 
-    fn energy<const D: usize>(&self, deformation: &Deformation<D>) -> f64 {
+    fn energy<const D: usize>(&self, deformation: &Deformation<f64, D>) -> f64 {
         let (lambda, mu) = self.elasticity.lame();
         let change = deformation.volume_change();
-        let sides = Deformation::<D>::TRANSVERSE * deformation.transverse_finger_less_one();
+        let sides = Deformation::<f64, D>::TRANSVERSE * deformation.transverse_finger_less_one();
         let trace = deformation.finger_less_one().trace() + sides; // tr b − 3
         0.5 * mu * trace - mu * change.ln_1p() + 0.5 * lambda * change * change
     }
 
     /// δτ = μ (L b + b Lᵀ) + λ (2J² − J) tr L I with L = m ⊗ n, less τ Lᵀ, gives
     /// Q = μ (n·b n) I + (μ + λ J²) n ⊗ n. Free transverse directions make it softer, so the bound holds for them too.
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<D>, _: Plane) -> f64 {
+    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, _: Plane) -> f64 {
         let (lambda, mu) = self.elasticity.lame();
         let ratio = 1.0 + deformation.volume_change();
-        let largest = 1.0 + largest_eigenvalue(&deformation.finger_less_one());
+        let largest = 1.0 + deformation.finger_less_one().largest_eigenvalue();
         mu * largest + mu + lambda * ratio * ratio
     }
 }
