@@ -288,3 +288,69 @@ fn a_1d_material_that_would_contract_is_warned_about_unless_the_plane_is_given()
     assert!(warnings(&[ratio, "plane=\"stress\""]).is_empty());
     assert!(warnings(&[ratio, "plane=\"strain\""]).is_empty());
 }
+
+/// What a scenario that names neither a basis nor a frame gets, with these lines added and this Poisson's ratio.
+fn left_to_the_scene(lines: &str, ratio: f64) -> (String, String) {
+    let text = format!(
+        "dimension = 2\ntime = {{ end = 1, courant = 0.3 }}\n\
+         grid = {{ min = [0, 0], max = [1, 1], cell_size = 0.1 }}\n\
+         material.soft = {{ density = 1, neo_hookean = {{ youngs_modulus = 1, poissons_ratio = {ratio} }} }}\n\
+         [[body]]\nname = \"a\"\nmaterial = \"soft\"\nshape.box = {{ min = [0.4, 0.0], max = [0.6, 0.5] }}\n{lines}"
+    );
+    let loaded = parse("scene", &text, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let method = &loaded.scenario.method;
+    let (frame, basis) = (method.frame.name(), method.basis.name());
+    // the folder of a run says what was chosen, and says it again when it is read
+    for line in [
+        format!("frame = \"{frame}\""),
+        format!("basis = \"{basis}\""),
+    ] {
+        let said = loaded.resolved_toml.contains(&line) || lines.contains("[method]");
+        assert!(said, "{}", loaded.resolved_toml);
+    }
+    let again = parse("again", &loaded.resolved_toml, &[]).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(again.scenario.method.frame, method.frame);
+    assert_eq!(again.scenario.method.basis, method.basis);
+    (frame.into(), basis.into())
+}
+
+#[test]
+fn the_scene_decides_on_frame_and_basis_that_nobody_names() {
+    let boundary = |on: &str, condition: &str| {
+        format!("[[boundary]]\nname = \"b\"\non.{on}\ncondition = \"{condition}\"\n")
+    };
+    let other = "[[body]]\nname = \"b\"\nmaterial = \"soft\"\nshape.box = { min = [0, 0.8], max = [0.2, 1] }\n";
+    let total = |basis: &str| ("total".to_string(), basis.to_string());
+    let updated = |basis: &str| ("updated".to_string(), basis.to_string());
+    let base = boundary("side = \"y_min\"", "fixed");
+    assert_eq!(left_to_the_scene("", 0.3), total("gimp"));
+    assert_eq!(left_to_the_scene(&base, 0.3), total("gimp"));
+    assert_eq!(left_to_the_scene(&base, 0.4), total("quadratic"));
+    // a ceiling that it may hit, a floor that it may leave, another body, a support that it does not reach
+    let ceiling = boundary("side = \"y_max\"", "fixed");
+    let floor = boundary("side = \"y_min\"", "wall");
+    let far = boundary("box = { min = [0.0, 0.7], max = [1.0, 0.8] }", "fixed");
+    let near = boundary("box = { min = [0.0, 0.5], max = [1.0, 0.6] }", "fixed");
+    for lines in [&ceiling, &floor, &far, other] {
+        assert_eq!(
+            left_to_the_scene(lines, 0.3),
+            updated("quadratic"),
+            "{lines}"
+        );
+    }
+    assert_eq!(left_to_the_scene(&near, 0.3), total("gimp"));
+    // who names one of the two is not surprised by the other
+    let named = |key: &str| format!("[method]\n{key}\n");
+    assert_eq!(
+        left_to_the_scene(&named("basis = \"gimp\""), 0.3),
+        updated("gimp")
+    );
+    assert_eq!(
+        left_to_the_scene(&named("frame = \"total\""), 0.3),
+        total("gimp")
+    );
+    assert_eq!(
+        left_to_the_scene(&named("frame = \"updated\""), 0.3),
+        updated("quadratic")
+    );
+}

@@ -80,6 +80,7 @@ fn describe(plan: &Plan) -> String {
             ),
         ),
     ];
+    lines.extend(plan.defaults.iter().map(|why| ("default", why.clone())));
     for body in &plan.bodies {
         lines.push((
             "body",

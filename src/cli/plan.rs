@@ -25,6 +25,8 @@ pub struct Plan {
     pub update: &'static str,
     /// Which configuration the shape functions belong to.
     pub frame: &'static str,
+    /// What the file leaves out, and why the scene gets what it gets.
+    pub defaults: Vec<String>,
     pub bodies: Vec<BodyPlan>,
     pub particles: usize,
     pub bytes_per_particle: f64,
@@ -182,6 +184,12 @@ impl SceneVisitor for Planner<'_> {
             transfer: scenario.method.transfer.name(),
             update: update(scenario.method.update),
             frame: scenario.method.frame.name(),
+            defaults: scenario
+                .method
+                .chosen
+                .iter()
+                .map(ToString::to_string)
+                .collect(),
             particles,
             bytes_per_particle: point_bytes / particles.max(1) as f64,
             memory_bytes: point_bytes + SORT_BYTES * largest as f64 + grid.bytes,

@@ -15,7 +15,7 @@ const MOST_BYTES: u64 = 64 << 20;
 pub struct Loaded {
     /// The checked scene.
     pub scenario: Scenario,
-    /// The text of the file with the overrides in place and its comments kept.
+    /// The text of the file with the overrides and what was left to the scene in place, and its comments kept.
     pub resolved_toml: String,
     /// What is allowed and still likely to surprise.
     pub warnings: Vec<String>,
@@ -98,7 +98,12 @@ fn finish(name: &str, title: &str, document: &Document) -> Result<Loaded, InputE
     let problems = document.problems();
     match scenario {
         Some(scenario) if problems.is_empty() => {
-            let resolved_toml = document.resolved().to_string();
+            let chosen = scenario.method.chosen.iter();
+            let chosen: Vec<_> = chosen
+                .map(|c| format!("method.{}=\"{}\"", c.key, c.value))
+                .collect();
+            let resolved = Document::parse(document.resolved(), &chosen);
+            let resolved_toml = resolved.resolved().to_string();
             Ok(Loaded {
                 scenario,
                 resolved_toml,

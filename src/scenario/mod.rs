@@ -86,6 +86,25 @@ pub struct Method {
     pub update: Scheme,
     /// Which configuration the shape functions belong to.
     pub frame: ReferenceFrame,
+    /// What the file leaves to the scene.
+    pub chosen: Vec<Chosen>,
+}
+
+/// A key of the method that the file leaves out, and what this scene gets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Chosen {
+    /// `frame` or `basis`.
+    pub key: &'static str,
+    /// What it is.
+    pub value: &'static str,
+    /// What in the scene decides.
+    pub why: &'static str,
+}
+
+impl std::fmt::Display for Chosen {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}: {}", self.key, self.value, self.why)
+    }
 }
 
 /// The configuration of the bodies that shape functions are taken in.
@@ -149,6 +168,8 @@ pub struct MaterialSpec {
     pub density: f64,
     /// Constitutive law.
     pub law: LawChoice,
+    /// Poisson's ratio, if the law has one.
+    pub poissons_ratio: Option<f64>,
 }
 
 /// A body: a shape filled with points.

@@ -44,10 +44,10 @@ fn material(
     let law = reader
         .one_of(LawChoice::NAMES)
         .and_then(|(law, mut parameters)| LawChoice::read(law, &mut parameters));
-    if let Some(law) = law
-        && frame.dimension == 1
+    let poissons_ratio = law.and_then(|law| poissons_ratio(&mut reader, law));
+    if frame.dimension == 1
         && !frame.plane_given
-        && poissons_ratio(&mut reader, law).is_some_and(|ratio| ratio != 0.0)
+        && poissons_ratio.is_some_and(|ratio| ratio != 0.0)
     {
         warnings.push(format!(
             "material.{name}: in 1D the default plane = \"strain\" keeps the cross-section as it is, so that E (1 - nu) / ((1 + nu) (1 - 2 nu)) resists instead of E; plane = \"stress\" models a bar"
@@ -58,6 +58,7 @@ fn material(
         name: name.into(),
         density: density?,
         law: law?,
+        poissons_ratio,
     })
 }
 

@@ -4,6 +4,7 @@
 
 mod bodies;
 mod boundaries;
+mod defaults;
 mod loads;
 mod materials;
 mod numerics;
@@ -64,9 +65,18 @@ pub(super) fn scenario(
     let frame = frame(&mut root, document)?;
     let time = numerics::time(&mut root);
     let (grid, grid_reader) = numerics::grid(&mut root, frame);
-    let method = numerics::method(&mut root, warnings);
+    let given = numerics::method(&mut root);
     let materials = materials::materials(&mut root, document, frame, warnings);
     let bodies = bodies::bodies(&mut root, document, frame, grid.as_ref(), &materials);
+    let basis = given.as_ref().map(defaults::basis_before_all);
+    let boundaries = boundaries::boundaries(&mut root, frame, grid.as_ref(), basis);
+    let method = match (&given, &grid) {
+        (Some(given), Some(grid)) => {
+            let held = boundaries.as_deref().unwrap_or_default();
+            Some(defaults::method(given, &bodies, held, &materials, grid))
+        }
+        _ => None,
+    };
     if let (Some(grid), Some(mut reader)) = (&grid, grid_reader) {
         let total = method
             .as_ref()
@@ -74,8 +84,6 @@ pub(super) fn scenario(
         size::check(&mut reader, &bodies, grid, frame, total);
         reader.finish();
     }
-    let basis = method.as_ref().map(|method| method.basis);
-    let boundaries = boundaries::boundaries(&mut root, frame, grid.as_ref(), basis);
     boundaries::check_axis(
         &mut root,
         frame,
@@ -91,6 +99,7 @@ pub(super) fn scenario(
     root.finish();
     materials::warn_of_unused(&materials, &bodies, warnings);
     if let (Some(method), Some(boundaries)) = (&method, &boundaries) {
+        numerics::warn_of_method(method, warnings);
         numerics::warn_of_frame(method, &bodies, boundaries, warnings);
     }
 

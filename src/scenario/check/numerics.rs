@@ -2,7 +2,6 @@
 
 use super::{AXES, CountedBody, Frame, Named, shown};
 use crate::basis::BasisChoice;
-use crate::boundary::ConditionChoice;
 use crate::input::{Bound, Reader, Unit};
 use crate::material::Plane;
 use crate::scenario::{BoundarySpec, GridSpec, Method, ReferenceFrame, Scheme, StepRule};
@@ -169,19 +168,43 @@ fn fitting_sizes(lengths: &[f64], size: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The numerical method.
-pub(super) fn method(root: &mut Reader<'_>, warnings: &mut Vec<String>) -> Option<Method> {
-    let method = read_method(root)?;
-    let linear = matches!(method.basis, BasisChoice::Linear(_));
+/// What the file says of the numerical method; the rest depends on the scene.
+#[derive(Clone, Copy)]
+pub(super) struct GivenMethod {
+    pub(super) basis: Option<BasisChoice>,
+    pub(super) transfer: TransferChoice,
+    pub(super) update: Scheme,
+    pub(super) frame: Option<ReferenceFrame>,
+}
+
+/// The numerical method, as far as the file says it.
+pub(super) fn method(root: &mut Reader<'_>) -> Option<GivenMethod> {
+    let mut given = root.optional_table("method");
+    if given.is_none() && root.has("method") {
+        return None;
+    }
+    let Some(reader) = given.as_mut() else {
+        let empty = crate::input::Document::parse("", &[]);
+        return choices(&mut empty.root());
+    };
+    choices(reader)
+}
+
+/// Warns of a method that is known to blow up.
+pub(super) fn warn_of_method(method: &Method, warnings: &mut Vec<String>) {
+    let jumps = matches!(
+        method.basis,
+        BasisChoice::Linear(_) | BasisChoice::LinearBBar(_)
+    );
     let stable = method.update != Scheme::UpdateStressLast && !method.transfer.is_affine();
     // points that stay where they are in the grid cross no cells
-    if linear && !stable && method.frame == ReferenceFrame::Updated {
-        let (transfer, update) = (method.transfer.name(), method.update.name());
+    if jumps && !stable && method.frame == ReferenceFrame::Updated {
+        let (basis, transfer) = (method.basis.name(), method.transfer.name());
+        let update = method.update.name();
         warnings.push(format!(
-            "method: the linear basis with \"{transfer}\" and \"{update}\" blows up at any time step once points cross cells near a free surface; take transfer = \"flip\" with update = \"musl\", or basis = \"quadratic\""
+            "method: the {basis} basis with \"{transfer}\" and \"{update}\" blows up at any time step once points cross cells near a free surface; take transfer = \"flip\" with update = \"musl\", or basis = \"quadratic\""
         ));
     }
-    Some(method)
 }
 
 /// Warns of what the total Lagrangian frame does not do: in it the grid goes with the bodies, so that it does not see where they
@@ -203,7 +226,7 @@ pub(super) fn warn_of_frame(
     }
     let walls = boundaries
         .iter()
-        .filter(|boundary| matches!(boundary.condition, ConditionChoice::Wall(_)));
+        .filter(|boundary| super::defaults::is_one_sided(&boundary.condition));
     for wall in walls {
         warnings.push(format!(
             "method.frame: in the total frame the wall \"{}\" stops only what touches it at the start, and wherever that is by then; what comes from afar passes, what has left cannot come back; use frame = \"updated\" for impact",
@@ -212,39 +235,41 @@ pub(super) fn warn_of_frame(
     }
 }
 
-fn read_method(root: &mut Reader<'_>) -> Option<Method> {
-    let mut given = root.optional_table("method");
-    if given.is_none() && root.has("method") {
-        return None;
-    }
-    let Some(reader) = given.as_mut() else {
-        let empty = crate::input::Document::parse("", &[]);
-        return choices(&mut empty.root());
+fn choices(reader: &mut Reader<'_>) -> Option<GivenMethod> {
+    let basis = if reader.has("basis") {
+        let named = reader.name_or_table("basis", BasisChoice::NAMES);
+        Some(named.and_then(|(name, mut parameters)| BasisChoice::read(name, &mut parameters)))
+    } else {
+        None
     };
-    choices(reader)
-}
-
-fn choices(reader: &mut Reader<'_>) -> Option<Method> {
-    let basis = reader
-        .name_or_table_or("basis", BasisChoice::NAMES, "quadratic")
-        .and_then(|(name, mut parameters)| BasisChoice::read(name, &mut parameters));
     let transfer = reader
         .name_or_table_or("transfer", TransferChoice::NAMES, "apic")
         .and_then(|(name, mut parameters)| TransferChoice::read(name, &mut parameters));
     let update = reader.choice("update", &["usf", "usl", "musl"], Some("usl"));
-    let frame = reader.choice("frame", &ReferenceFrame::NAMES, Some("updated"));
+    let frame = if reader.has("frame") {
+        Some(reader.choice("frame", &ReferenceFrame::NAMES, None))
+    } else {
+        None
+    };
     let update = match update? {
         "usf" => Scheme::UpdateStressFirst,
         "usl" => Scheme::UpdateStressLast,
         _ => Scheme::ModifiedUpdateStressLast,
     };
-    Some(Method {
-        basis: basis?,
+    Some(GivenMethod {
+        // what was given and could not be read is a problem, not a default
+        basis: match basis {
+            Some(read) => Some(read?),
+            None => None,
+        },
         transfer: transfer?,
         update,
-        frame: match frame? {
-            "total" => ReferenceFrame::Total,
-            _ => ReferenceFrame::Updated,
+        frame: match frame {
+            Some(read) => Some(match read? {
+                "total" => ReferenceFrame::Total,
+                _ => ReferenceFrame::Updated,
+            }),
+            None => None,
         },
     })
 }

@@ -105,7 +105,10 @@ fn points<const D: usize>(
             places.clone()
         },
         reference_position: places[..references].to_vec(),
-        deformation_gradient: vec![Matrix::identity(); references],
+        deformation_gradient: numbers(D * D * references)
+            .chunks_exact(D * D)
+            .map(|f| Matrix::identity() * 3.5 + Matrix::from_column_slice(f))
+            .collect(),
         first_piola_stress: numbers(D * D * references)
             .chunks_exact(D * D)
             .map(Matrix::from_column_slice)

@@ -1,7 +1,7 @@
 //! What the kernels of `stencil` mean: the loops of the textbook, for each point, for each of its N^D nodes, over dense arrays.
 
 use super::stencil::{Scattered, Wanted};
-use crate::basis::Basis;
+use crate::basis::{Axis, Basis};
 use crate::grid::Geometry;
 use crate::math::{Matrix, Vector, packed_len, unpack};
 use crate::state::Particles;
@@ -46,7 +46,7 @@ impl<const D: usize> Dense<D> {
     }
 }
 
-/// A node that a point knows: which one, x_i − x, N_i and ∇N_i.
+/// A node that a point knows: which one, x_i − x, N_i and ∇N_i at the point.
 struct Known<const D: usize> {
     node: [i32; D],
     arm: Vector<D>,
@@ -54,6 +54,8 @@ struct Known<const D: usize> {
     gradient: Vector<D>,
     /// N_i D⁻¹ (x_i − x) with D = Σ N_i (x_i − x)(x_i − x)ᵀ; the gradient where a point has no D, or the basis says so.
     fitted: Vector<D>,
+    /// ∇N_i at the middle of the point's cell.
+    middle: Vector<D>,
 }
 
 /// All nodes that a point knows, weights and gradients as products.
@@ -65,11 +67,15 @@ fn known<const D: usize, const N: usize, B: Basis<N>>(
     let h = geometry.cell_size;
     let x = geometry.in_cells(position, 1.0 / h);
     let axes: [_; D] = std::array::from_fn(|a| basis[a].axis(x[a], geometry.cells[a]));
+    let middle: [_; D] = std::array::from_fn(|a| {
+        let cell = (x[a] as i32).min(geometry.cells[a] - 1);
+        basis[a].axis(f64::from(cell) + 0.5, geometry.cells[a])
+    });
     let mut nodes: Vec<Known<D>> = (0..N.pow(D as u32))
         .map(|number| {
             let local: [usize; D] = std::array::from_fn(|a| number / N.pow(a as u32) % N);
             let node = std::array::from_fn(|a| axes[a].first + local[a] as i32);
-            let product = |slope: usize| -> f64 {
+            let product = |axes: &[Axis<N>; D], slope: usize| -> f64 {
                 (0..D)
                     .map(|a| {
                         if a == slope {
@@ -85,9 +91,10 @@ fn known<const D: usize, const N: usize, B: Basis<N>>(
                 arm: Vector::from_fn(|a, _| {
                     h * (basis[a].position(node[a], geometry.cells[a]) - x[a])
                 }),
-                weight: product(D),
-                gradient: Vector::from_fn(|a, _| product(a)),
+                weight: product(&axes, D),
+                gradient: Vector::from_fn(|a, _| product(&axes, a)),
                 fitted: Vector::zeros(),
+                middle: Vector::from_fn(|a, _| product(&middle, a)),
             }
         })
         .collect();
@@ -151,7 +158,14 @@ fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
                 if matches!(method, Method::MlsApic) {
                     gradient = known.fitted;
                 }
-                let mut internal = stress * gradient * -p.initial_volume[i];
+                let mut internal = stress * gradient;
+                if B::DILATION_AT_CENTRE {
+                    // P = P_dev + (P : F / d) F⁻ᵀ; in the updated frame τ with F = I
+                    let (f, inverse) = stretching(p, i);
+                    let pressure = inverse * (stress.dot(&f) / D as f64);
+                    internal = (stress - pressure) * gradient + pressure * known.middle;
+                }
+                internal *= -p.initial_volume[i];
                 if let Some(hoop) = p.hoop_stress.get(i) {
                     internal[0] -= p.initial_volume[i] * hoop * known.weight / p.position[i][0];
                 }
@@ -162,6 +176,14 @@ fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
             }
         }
     }
+}
+
+/// F and F⁻ᵀ of a point; I where the grid is that of the present positions.
+fn stretching<const D: usize>(p: &Particles<D>, i: usize) -> (Matrix<D>, Matrix<D>) {
+    let f = p.deformation_gradient.get(i).copied();
+    let f = f.unwrap_or_else(Matrix::identity);
+    let inverse = f.try_inverse().expect("F is not singular");
+    (f, inverse.transpose())
 }
 
 /// What every point takes from the grid: (velocity gradient, v_r / r); in the total frame the gradient is Ḟ.
@@ -194,10 +216,18 @@ fn plain_gather<const D: usize, const N: usize, B: Basis<N>>(
         };
         let straining = if what.same { main } else { second };
         let hoop_rate = mean(straining)[0] / p.position[i][0];
-        let rate = match method {
+        let mut rate = match method {
             Method::MlsApic => fit(straining),
             _ => slope(straining),
         };
+        if B::DILATION_AT_CENTRE {
+            let middle: Matrix<D> = nodes
+                .iter()
+                .map(|k| straining.vector(&k.node) * k.middle.transpose())
+                .sum();
+            let (f, inverse) = stretching(p, i);
+            rate += f * ((middle - rate).dot(&inverse) / D as f64);
+        }
         rates.push((rate, hoop_rate));
         if what.rate && !p.hoop_stretch.is_empty() {
             p.hoop_stretch[i] *= 1.0 + DT * hoop_rate;

@@ -19,7 +19,7 @@ pub struct Columns<const D: usize> {
     pub(super) mass: *const f64,
     pub(super) volume: *const f64,
     pub(super) stress: *mut f64,
-    deformation: *mut Matrix<D>,
+    pub(super) deformation: *mut Matrix<D>,
     pub(super) first_piola: *mut Matrix<D>,
     pub(super) hoop_stress: *mut f64,
     pub(super) hoop_stretch: *mut f64,

@@ -1,5 +1,6 @@
 //! From the grid to points.
 
+use super::dilation::Centre;
 use super::group::{Group, Needs};
 use super::nodes::{Stencil, gather_linear, gather_value, without_absent};
 use super::scatter::{Scattered, scatter_point};
@@ -168,6 +169,7 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
     rates: &mut Rates<D>,
 ) -> Gathered {
     let mut group = Group::<D, N>::new();
+    let mut centre = Centre::new(pass);
     let needs = Needs {
         slope: (what.velocity && T::TAYLOR) || (what.rate && !T::MOVING_LEAST_SQUARES),
         affine: (what.velocity && T::AFFINE && !T::TAYLOR)
@@ -182,6 +184,9 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
         let place = unsafe { columns.places::<L>(first, count) };
         columns.prefetch::<L>(first, T::AFFINE && what.velocity, false);
         group.set::<L, B, T>(pass, tile, &place, needs);
+        if B::DILATION_AT_CENTRE {
+            centre.set(&group);
+        }
         // where the two are one column, it is read once
         let mut position = place;
         if columns.total {
@@ -195,6 +200,7 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
                 pass,
                 columns,
                 &group,
+                &centre,
                 tile,
                 four,
                 what,
@@ -250,6 +256,7 @@ pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: 
     let tile = Tile::new(block, edge, N);
     let points = block.points();
     let mut group = Group::<D, N>::new();
+    let centre = Centre::new(pass);
     let needs = Needs {
         slope: T::TAYLOR,
         affine: T::AFFINE,
@@ -264,7 +271,7 @@ pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: 
             group.set::<L, B, T>(pass, &tile, &place, needs);
             let velocities = Wanted::VELOCITY;
             let offered = offered::<L, D, N, B, T>(
-                pass, columns, &group, &tile, four, velocities, sources, None,
+                pass, columns, &group, &centre, &tile, four, velocities, sources, None,
             );
             sums.take(pass, columns, four, &offered);
             for q in 0..count {
@@ -277,6 +284,7 @@ pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: 
                     pass,
                     columns,
                     &s,
+                    &centre,
                     first + q,
                     Scattered::MOMENTUM,
                     second,
@@ -321,6 +329,7 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
     pass: &Pass<'_, D, B, T>,
     columns: &Columns<D>,
     group: &Group<D, N>,
+    centre: &Centre<D, N>,
     tile: &Tile<D>,
     rows: FourRows,
     what: Wanted,
@@ -354,7 +363,16 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
                     if B::SLOPES_JUMP {
                         without_absent(value, &mut gradient);
                     }
-                    book(&mut gradients, q, &gradient);
+                    book::<L, D, N, B>(
+                        &mut gradients,
+                        columns,
+                        centre,
+                        tile,
+                        rows.first,
+                        q,
+                        sources.main,
+                        gradient,
+                    );
                     if B::SLOPES_JUMP {
                         without_absent(value, &mut columns_of_c);
                     }
@@ -366,7 +384,16 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
                     if B::SLOPES_JUMP {
                         without_absent(value, &mut gradient);
                     }
-                    book(&mut gradients, q, &gradient);
+                    book::<L, D, N, B>(
+                        &mut gradients,
+                        columns,
+                        centre,
+                        tile,
+                        rows.first,
+                        q,
+                        sources.main,
+                        gradient,
+                    );
                     if what.velocity && T::AFFINE {
                         L::store_matrix::<D>(&gradient, affine);
                     }
@@ -380,7 +407,16 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
                     if B::SLOPES_JUMP {
                         without_absent(value, &mut gradient);
                     }
-                    book(&mut gradients, q, &gradient);
+                    book::<L, D, N, B>(
+                        &mut gradients,
+                        columns,
+                        centre,
+                        tile,
+                        rows.first,
+                        q,
+                        sources.second,
+                        gradient,
+                    );
                     straining[q] = value;
                 }
                 if what.velocity && T::AFFINE {
@@ -408,14 +444,25 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
     }
 }
 
+/// Books the gradient of the `q`th of the points from row `first` on, with the change of volume that its basis wants.
 #[inline(always)]
-fn book<L: Lane, const D: usize>(
+#[allow(clippy::too_many_arguments)]
+unsafe fn book<L: Lane, const D: usize, const N: usize, B: Basis<N>>(
     gradients: &mut Option<(&mut Rates<D>, usize)>,
+    columns: &Columns<D>,
+    centre: &Centre<D, N>,
+    tile: &Tile<D>,
+    first: usize,
     q: usize,
-    columns: &[L; D],
+    velocities: *const Node,
+    mut gradient: [L; D],
 ) {
     if let Some((rates, at)) = gradients {
-        rates.set(*at + q, columns);
+        if B::DILATION_AT_CENTRE {
+            // SAFETY: as the caller says
+            unsafe { centre.dilate(columns, tile, first + q, q, velocities, &mut gradient) };
+        }
+        rates.set(*at + q, &gradient);
     }
 }
 

@@ -11,6 +11,7 @@
 //! node. Blocks hold disjoint ranges of rows, so no two threads touch the same point.
 
 mod columns;
+mod dilation;
 mod gather;
 mod group;
 mod nodes;

@@ -1,5 +1,6 @@
 //! From points to the grid.
 
+use super::dilation::Centre;
 use super::group::{Group, Needs};
 use super::nodes::{Gift, Stencil, scatter_gift};
 use super::{Columns, Pass, Tile};
@@ -55,6 +56,7 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
     let tile = Tile::new(block, edge, N);
     let points = block.points();
     let mut group = Group::<D, N>::new();
+    let mut centre = Centre::new(pass);
     let needs = Needs {
         slope: what.force && !T::MOVING_LEAST_SQUARES,
         affine: T::AFFINE,
@@ -65,6 +67,9 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
         let place = unsafe { columns.places::<L>(first, count) };
         columns.prefetch::<L>(first, T::AFFINE && what.momentum, what.force);
         group.set::<L, B, T>(pass, &tile, &place, needs);
+        if B::DILATION_AT_CENTRE {
+            centre.set(&group);
+        }
         for q in 0..count {
             let s = Stencil {
                 group: &group,
@@ -73,13 +78,23 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
             };
             // SAFETY: as the caller says, and as above
             unsafe {
-                scatter_point::<L, D, N, B, T>(pass, columns, &s, first + q, what, main, force)
+                scatter_point::<L, D, N, B, T>(
+                    pass,
+                    columns,
+                    &s,
+                    &centre,
+                    first + q,
+                    what,
+                    main,
+                    force,
+                )
             }
         }
     }
 }
 
 #[inline(always)]
+#[allow(clippy::too_many_arguments)]
 pub(super) unsafe fn scatter_point<
     L: Lane,
     const D: usize,
@@ -90,6 +105,7 @@ pub(super) unsafe fn scatter_point<
     pass: &Pass<'_, D, B, T>,
     columns: &Columns<D>,
     s: &Stencil<'_, D, N>,
+    centre: &Centre<D, N>,
     p: usize,
     what: Scattered,
     main: *mut Node,
@@ -138,6 +154,11 @@ pub(super) unsafe fn scatter_point<
         let scales = L::new(first_numbers::<D>(scale));
         for a in 0..D {
             pull[a] = stress[a] * scales;
+        }
+        if B::DILATION_AT_CENTRE {
+            let nodes = if T::CHANGE { force } else { main };
+            // SAFETY: as the caller says
+            unsafe { centre.press(columns, s.tile, p, s.q, nodes, &mut pull) };
         }
         if D == 2 && columns.axisymmetric {
             // SAFETY: as above
