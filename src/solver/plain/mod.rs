@@ -7,6 +7,7 @@ use crate::math::{Matrix, Vector, packed_len, unpack};
 use crate::state::Particles;
 
 mod compare;
+mod domains;
 mod tiling;
 
 /// Δt of all passes, s.
@@ -55,6 +56,9 @@ struct Known<const D: usize> {
     /// N_i D⁻¹ (x_i − x) with D = Σ N_i (x_i − x)(x_i − x)ᵀ; the gradient where a point has no D, or the basis says so.
     fitted: Vector<D>,
 }
+
+/// Which nodes the point in a row knows.
+type Knows<'a, const D: usize> = dyn Fn(&Particles<D>, usize) -> Vec<Known<D>> + 'a;
 
 /// All nodes that a point knows, weights and gradients as products.
 fn known<const D: usize, const N: usize, B: Basis<N>>(
@@ -108,7 +112,7 @@ fn known<const D: usize, const N: usize, B: Basis<N>>(
 }
 
 /// How a transfer is written in a paper.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum Method {
     Pic,
     Flip(f64),
@@ -119,9 +123,8 @@ enum Method {
 
 /// Momentum m v + m C (x_i − x) and mass; force −V₀ τ ∇N, and −V₀ τ_θ N / r along r. In the total frame N is that of the
 /// reference position, and the force −V₀ P ∇₀N; r is the present one.
-fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
-    geometry: &Geometry<D>,
-    basis: &[B; D],
+fn plain_scatter<const D: usize>(
+    knows: &Knows<'_, D>,
     method: Method,
     p: &Particles<D>,
     what: Scattered,
@@ -130,7 +133,7 @@ fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
 ) {
     let width = packed_len(D);
     for i in 0..p.len() {
-        for known in known(geometry, basis, &p.grid_position()[i]) {
+        for known in knows(p, i) {
             if what.momentum {
                 let mut velocity = p.velocity[i];
                 if matches!(method, Method::Apic | Method::MlsApic | Method::Tpic) {
@@ -164,19 +167,20 @@ fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
     }
 }
 
-/// What every point takes from the grid: (velocity gradient, v_r / r); in the total frame the gradient is Ḟ.
-fn plain_gather<const D: usize, const N: usize, B: Basis<N>>(
-    geometry: &Geometry<D>,
-    basis: &[B; D],
+/// What every point takes from the grid: (velocity gradient, v_r / r); in the total frame the gradient is Ḟ. Domains are carried
+/// along when points move.
+fn plain_gather<const D: usize>(
+    knows: &Knows<'_, D>,
     method: Method,
     p: &mut Particles<D>,
     what: Wanted,
     grid: &[Dense<D>; 3],
 ) -> Vec<(Matrix<D>, f64)> {
     let [main, change, second] = grid;
+    let total = p.is_total();
     let mut rates = Vec::new();
     for i in 0..p.len() {
-        let nodes = known(geometry, basis, &p.grid_position()[i]);
+        let nodes = knows(p, i);
         let mean = |grid: &Dense<D>| -> Vector<D> {
             nodes.iter().map(|k| grid.vector(&k.node) * k.weight).sum()
         };
@@ -224,6 +228,9 @@ fn plain_gather<const D: usize, const N: usize, B: Basis<N>>(
             let taken = !what.velocity && !matches!(method, Method::Flip(_));
             let velocity = if taken { p.velocity[i] } else { mean(main) };
             p.position[i] += velocity * DT;
+            if let (Some(f), false) = (p.deformation_gradient.get_mut(i), total) {
+                *f += slope(main) * *f * DT;
+            }
         }
     }
     rates
