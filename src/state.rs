@@ -20,7 +20,8 @@ pub struct Particles<const D: usize> {
     pub initial_volume: Vec<f64>,
     /// Kirchhoff stress τ = J σ, Pa, packed: `D (D + 1) / 2` numbers a point.
     pub stress: Vec<f64>,
-    /// Deformation gradient F = ∂x/∂X in the modelled directions; empty in the updated frame.
+    /// Deformation gradient F = ∂x/∂X in the modelled directions; empty in the updated frame, unless points have domains that
+    /// deform with them.
     pub deformation_gradient: Vec<Matrix<D>>,
     /// First Piola–Kirchhoff stress P = τ F⁻ᵀ in the modelled directions, Pa; empty in the updated frame.
     pub first_piola_stress: Vec<Matrix<D>>,
@@ -104,7 +105,8 @@ impl<const D: usize> Particles<D> {
             + 4
             + numbers(self.stress.len())
             + size_of::<Matrix<D>>() * usize::from(!self.affine.is_empty())
-            + (size_of::<Vector<D>>() + 2 * size_of::<Matrix<D>>()) * usize::from(self.is_total())
+            + (size_of::<Vector<D>>() + size_of::<Matrix<D>>()) * usize::from(self.is_total())
+            + size_of::<Matrix<D>>() * usize::from(!self.deformation_gradient.is_empty())
             + numbers(self.hoop_stress.len())
             + numbers(self.hoop_stretch.len())
     }
@@ -123,7 +125,12 @@ impl<const D: usize> Particles<D> {
             && self.initial_volume.len() == count
             && self.stress.len() == packed_len(D) * count
             && self.reference_position.len() == total
-            && self.deformation_gradient.len() == total
+            && self.deformation_gradient.len()
+                == if self.deformation_gradient.is_empty() {
+                    total
+                } else {
+                    count
+                }
             && self.first_piola_stress.len() == total
             && self.affine.len() == if affine { count } else { 0 }
             && self.hoop_stress.len() == hoops
@@ -164,8 +171,10 @@ impl<const D: usize> Particles<D> {
             }
             if !reference_position.is_empty() {
                 reorder::permute_in_place(reference_position, 1, order, leaders);
-                reorder::permute_in_place(deformation_gradient, 1, order, leaders);
                 reorder::permute_in_place(first_piola_stress, 1, order, leaders);
+            }
+            if !deformation_gradient.is_empty() {
+                reorder::permute_in_place(deformation_gradient, 1, order, leaders);
             }
         };
         let mut affines = || {

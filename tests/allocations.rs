@@ -111,6 +111,7 @@ fn a_warm_step_allocates_nothing() {
             variant("cubic", "\"flip\"", "usl", "updated"),
             variant("quadratic", "\"flip\"", "musl", "total"),
             variant("linear", "\"apic\"", "usf", "total"),
+            variant("cpdi", "\"apic\"", "musl", "updated"),
         ] {
             let mut scene = flying_box(dimension);
             scene.law = "neo_hookean = { youngs_modulus = 1, poissons_ratio = 0.3 }".into();

@@ -490,7 +490,7 @@ fn stability_shows_its_edges_and_writes_tables_and_pictures() {
     assert!(out(&list).contains("courant"), "{}", out(&list));
     for (arguments, hint) in [
         (["stability", "wals", "--list"], "did you mean \"walls\"?"),
-        (["stability", "--basis", "kubic"], "known here: cubic"),
+        (["stability", "--basis", "kubic"], "known here: cpdi, cubic"),
     ] {
         let wrong = mpm(&folder, &arguments);
         assert_eq!(code(&wrong), 2);

@@ -110,14 +110,38 @@ pub trait BasisVisitor {
     type Output;
     /// Does it.
     fn visit<const N: usize, B: Basis<N>>(self, basis: B) -> Self::Output;
+
+    /// Does it with a basis whose points have domains that deform with them: `basis` is that of undeformed points.
+    fn visit_domains<const N: usize, B: Basis<N>>(self, basis: B) -> Self::Output
+    where
+        Self: Sized,
+    {
+        self.visit(basis)
+    }
 }
 
 mod spline;
 #[cfg(test)]
 mod tests;
 
+/// Whether a basis has domains, and which function of a visitor it is handed to.
+macro_rules! kind {
+    (has) => {
+        false
+    };
+    (has domains) => {
+        true
+    };
+    (visit $visitor:ident, $basis:ident, $n:literal) => {
+        $visitor.visit::<$n, _>(*$basis)
+    };
+    (visit $visitor:ident, $basis:ident, $n:literal domains) => {
+        $visitor.visit_domains::<$n, _>(*$basis)
+    };
+}
+
 macro_rules! bases {
-    ($($name:literal => $module:ident::$basis:ident with $n:literal nodes),* $(,)?) => {
+    ($($name:literal => $module:ident::$basis:ident with $n:literal nodes $(and deforming $domains:ident)?),* $(,)?) => {
         $(mod $module; pub use $module::$basis;)*
 
         /// Every basis, by its name in a scenario.
@@ -139,9 +163,14 @@ macro_rules! bases {
             /// Every basis with its default parameters, for what has to hold for all of them.
             pub fn all() -> Vec<Self> { vec![$(Self::$basis($basis::default())),*] }
 
+            /// Whether points have domains that deform with them, so that the functions above are those of undeformed points.
+            pub fn has_domains(&self) -> bool {
+                match self { $(Self::$basis(_) => kind!(has $($domains)?)),* }
+            }
+
             /// Calls the visitor with the basis and its number of nodes an axis.
             pub fn visit<V: BasisVisitor>(&self, visitor: V) -> V::Output {
-                match self { $(Self::$basis(basis) => visitor.visit::<$n, _>(*basis)),* }
+                match self { $(Self::$basis(basis) => kind!(visit visitor, basis, $n $($domains)?)),* }
             }
         }
     };
@@ -153,4 +182,5 @@ bases! {
     "gimp" => gimp::Gimp with 3 nodes,
     "quadratic" => quadratic::QuadraticBSpline with 3 nodes,
     "cubic" => cubic::CubicBSpline with 4 nodes,
+    "cpdi" => cpdi::Cpdi with 3 nodes and deforming domains,
 }

@@ -130,7 +130,12 @@ impl Property for Differentiable {
 
 #[test]
 fn every_slope_is_the_derivative_of_its_weight() {
-    every_basis(&Differentiable);
+    for choice in BasisChoice::all() {
+        // slopes of domains are those of a line between two corners, which passes over the kink of a hat
+        if !choice.has_domains() {
+            choice.visit(Check(&Differentiable, choice.name()));
+        }
+    }
 }
 
 struct Continuous {

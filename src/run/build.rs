@@ -114,6 +114,11 @@ fn build_body<const D: usize>(scenario: &Scenario, index: usize, set: &PointSet)
     } else {
         0
     };
+    let deforming = if scenario.method.basis.has_domains() {
+        count
+    } else {
+        total
+    };
     Body {
         name: spec.name.clone(),
         particles: Particles {
@@ -126,7 +131,7 @@ fn build_body<const D: usize>(scenario: &Scenario, index: usize, set: &PointSet)
                 .collect(),
             initial_volume: volume,
             stress: vec![0.0; count * packed_len(D)],
-            deformation_gradient: vec![Matrix::identity(); total],
+            deformation_gradient: vec![Matrix::identity(); deforming],
             first_piola_stress: vec![Matrix::zeros(); total],
             affine: if affine {
                 let gradient = |at: &[f64; 3]| velocity_gradient(&spec.velocity, *at, &set.spacing);

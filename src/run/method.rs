@@ -1,11 +1,11 @@
 //! From the names of a basis and a transfer to their types: the only place where every combination of dimension, basis and
 //! transfer is compiled.
 
-use crate::basis::{Basis, BasisVisitor};
+use crate::basis::{Basis, BasisVisitor, Cpdi};
 use crate::grid::Geometry;
 use crate::math::Vector;
 use crate::scenario::Scenario;
-use crate::solver::{Kernels, Stencils};
+use crate::solver::{Domains, Kernels, Stencils};
 use crate::state::State;
 use crate::transfer::{Transfer, TransferVisitor};
 use std::any::Any;
@@ -75,6 +75,55 @@ impl<const D: usize> BasisVisitor for WithBasis<'_, D> {
             .transfer
             .visit(WithTransfer::<D, N, B> { scene: self, basis })
     }
+
+    fn visit_domains<const N: usize, B: Basis<N>>(self, basis: B) -> Self::Output {
+        let geometry = geometry(self.scenario, &basis);
+        let WithBasis { scenario, spacings } = self;
+        let transfer = scenario.method.transfer;
+        transfer.visit(WithDomains { geometry, spacings })
+    }
+}
+
+/// The grid as a basis numbers its nodes.
+fn geometry<const D: usize, const N: usize, B: Basis<N>>(
+    scenario: &Scenario,
+    basis: &B,
+) -> Geometry<D> {
+    let grid = &scenario.grid;
+    let min = Vector::from_fn(|a, _| grid.min[a]);
+    let cells = std::array::from_fn(|a| grid.cells[a]);
+    Geometry::new(min, grid.cell_size, cells, basis)
+}
+
+/// The bases of each body along each axis, for its points' distances, m.
+fn of_bodies<const D: usize, const N: usize, B: Basis<N>>(
+    basis: &B,
+    spacings: &[[f64; 3]],
+    cell_size: f64,
+) -> Vec<[B; D]> {
+    let of_body =
+        |spacing: &[f64; 3]| std::array::from_fn(|a| basis.for_spacing(spacing[a] / cell_size));
+    spacings.iter().map(of_body).collect()
+}
+
+struct WithDomains<'a, const D: usize> {
+    geometry: Geometry<D>,
+    spacings: &'a [[f64; 3]],
+}
+
+impl<const D: usize> TransferVisitor for WithDomains<'_, D> {
+    type Output = Method<D>;
+
+    fn visit<T: Transfer>(self, transfer: T) -> Self::Output {
+        let Self { geometry, spacings } = self;
+        Method {
+            kernels: Box::new(Domains::<D, T> {
+                basis: of_bodies(&Cpdi::default(), spacings, geometry.cell_size),
+                transfer,
+            }),
+            geometry,
+        }
+    }
 }
 
 struct WithTransfer<'a, const D: usize, const N: usize, B> {
@@ -87,17 +136,12 @@ impl<const D: usize, const N: usize, B: Basis<N>> TransferVisitor for WithTransf
 
     fn visit<T: Transfer>(self, transfer: T) -> Self::Output {
         let WithBasis { scenario, spacings } = self.scene;
-        let (basis, grid) = (self.basis, &scenario.grid);
-        let min = Vector::from_fn(|a, _| grid.min[a]);
-        let cells: [i32; D] = std::array::from_fn(|a| grid.cells[a]);
-        let of_body = |spacing: &[f64; 3]| {
-            std::array::from_fn(|a| basis.for_spacing(spacing[a] / grid.cell_size))
-        };
+        let basis = self.basis;
         Method {
-            geometry: Geometry::new(min, grid.cell_size, cells, &basis),
+            geometry: geometry(scenario, &basis),
             kernels: Box::new(Stencils::<D, N, B, T> {
                 nodes: basis,
-                basis: spacings.iter().map(of_body).collect(),
+                basis: of_bodies(&basis, spacings, scenario.grid.cell_size),
                 transfer,
             }),
         }

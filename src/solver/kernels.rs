@@ -8,7 +8,7 @@ use super::stencil::{
 };
 use crate::basis::Basis;
 use crate::grid::{Block, Geometry, Node};
-use crate::math::Vector;
+use crate::math::{Matrix, Vector};
 use crate::real::Portable;
 use crate::transfer::Transfer;
 use std::ops::Range;
@@ -42,8 +42,15 @@ pub trait Kernels<const D: usize>: Send + Sync {
     /// First node of the stencil of a point of a body, whose position is given in cells.
     fn first(&self, body: usize, x: &[f64; D], cells: &[i32; D]) -> [i32; D];
 
-    /// Σ N_i (x_i − x)² along each axis, in cells², for a point of a body.
-    fn inertia(&self, body: usize, x: &[f64; D], cells: &[i32; D]) -> [f64; D];
+    /// Σ N_i (x_i − x) (x_i − x)ᵀ, in cells², for a point of a body; `deformed` is the deformation gradient of its domain, if it
+    /// has one.
+    fn inertia(
+        &self,
+        body: usize,
+        x: &[f64; D],
+        deformed: Option<&Matrix<D>>,
+        cells: &[i32; D],
+    ) -> Matrix<D>;
 
     /// The transfer's share of the points' own velocity.
     fn ratio(&self) -> f64;
@@ -170,13 +177,19 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
         std::array::from_fn(|a| self.basis[body][a].axis(x[a], cells[a]).first)
     }
 
-    fn inertia(&self, body: usize, x: &[f64; D], cells: &[i32; D]) -> [f64; D] {
-        std::array::from_fn(|a| {
+    fn inertia(
+        &self,
+        body: usize,
+        x: &[f64; D],
+        _: Option<&Matrix<D>>,
+        cells: &[i32; D],
+    ) -> Matrix<D> {
+        Matrix::from_diagonal(&Vector::from_fn(|a, _| {
             let basis = &self.basis[body][a];
             let axis = basis.axis(x[a], cells[a]);
             let arm = |i: usize| basis.position(axis.first + i as i32, cells[a]) - x[a];
             (0..N).map(|i| axis.weight[i] * arm(i) * arm(i)).sum()
-        })
+        }))
     }
 
     fn ratio(&self) -> f64 {

@@ -19,6 +19,7 @@ pub use kernels::{Kernels, Stencils};
 pub use ledger::{Account, GridSums, Ledger, Stored};
 pub use loads::{Load, LoadForce, Loads};
 pub use mpm::{Mpm, Setup};
+pub use stencil::Domains;
 pub use time_step::{Limit, TimeStep};
 
 use crate::state::State;

@@ -340,18 +340,19 @@ impl<const D: usize> Solver<D> for Mpm<D> {
                 if let Some(affine) = p.affine.get(i) {
                     let place = &p.grid_position()[i];
                     let cells = self.geometry.in_cells(place, 1.0 / self.geometry.cell_size);
-                    let inertia = self.kernels.inertia(body, &cells, &self.geometry.cells);
+                    let deformed = p.deformation_gradient.get(i);
+                    let (frame, domain) = if p.is_total() {
+                        (deformed, None)
+                    } else {
+                        (None, deformed)
+                    };
+                    let cell = &self.geometry.cells;
+                    let inertia = self.kernels.inertia(body, &cells, domain, cell);
                     let mass = p.mass[i] * self.geometry.cell_size.powi(2);
                     // Σ N_i F (X_i − X) × C (X_i − X), with F = I where the grid is that of the present positions
-                    let own = |a: usize, b: usize| match p.deformation_gradient.get(i) {
-                        Some(f) => (0..D)
-                            .map(|c| f[(a, c)] * inertia[c] * affine[(b, c)])
-                            .sum(),
-                        None => inertia[a] * affine[(b, a)],
-                    };
+                    let moment = frame.map_or(inertia, |f| f * inertia) * affine.transpose();
                     for (sum, &(a, b)) in sums.iter_mut().zip(pairs) {
-                        let spin: f64 = own(a, b) - own(b, a);
-                        sum.add(mass * spin);
+                        sum.add(mass * (moment[(a, b)] - moment[(b, a)]));
                     }
                 }
             }

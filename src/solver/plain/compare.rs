@@ -21,11 +21,34 @@ impl Random {
 }
 
 /// What kind of scene points belong to.
-#[derive(Clone, Copy)]
-struct Kind {
-    axisymmetric: bool,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kind {
+    pub axisymmetric: bool,
     /// Whether the frame is the total Lagrangian one.
-    total: bool,
+    pub total: bool,
+    /// Whether points have domains.
+    pub domains: bool,
+}
+
+impl Kind {
+    /// Every kind of scene of `D` dimensions.
+    pub(super) fn all<const D: usize>(domains: bool) -> Vec<Self> {
+        let kind = |k: usize| Self {
+            axisymmetric: k & 1 == 1,
+            total: k & 2 == 2,
+            domains,
+        };
+        let every = (0..4).map(kind);
+        every.filter(|kind| D == 2 || !kind.axisymmetric).collect()
+    }
+
+    /// Small cells and places that are no round numbers; the axis of an axisymmetric grid is at zero.
+    pub(super) fn corner<const D: usize>(&self) -> Vector<D> {
+        Vector::from_fn(|a, _| match self.axisymmetric {
+            true => 0.0,
+            false => [0.0, -0.3, 0.7][a],
+        })
+    }
 }
 
 /// Points all over the grid, some in its corners, with random content, then sorted into blocks and moved as far as a point may
@@ -40,6 +63,7 @@ fn points<const D: usize>(
     let Kind {
         axisymmetric,
         total,
+        domains,
     } = kind;
     let edge = block_edge(D, kernels.nodes());
     let h = geometry.cell_size;
@@ -86,6 +110,7 @@ fn points<const D: usize>(
     let mut numbers = |count: usize| -> Vec<f64> { (0..count).map(|_| random.next()).collect() };
     let hoops = if axisymmetric { count } else { 0 };
     let references = if total { count } else { 0 };
+    let deformed = if total || domains { count } else { 0 };
     // an end of the grid is hit exactly, whatever the cell size
     let places: Vec<Vector<D>> = places
         .iter()
@@ -105,9 +130,14 @@ fn points<const D: usize>(
             places.clone()
         },
         reference_position: places[..references].to_vec(),
-        deformation_gradient: numbers(D * D * references)
+        // stretched, turned and sheared, every seventh to more than a domain may be
+        deformation_gradient: numbers(D * D * deformed)
             .chunks_exact(D * D)
-            .map(|f| Matrix::identity() * 3.5 + Matrix::from_column_slice(f))
+            .enumerate()
+            .map(|(i, f)| {
+                let size = if i % 7 == 0 { 6.0 } else { 1.5 };
+                (Matrix::identity() * 1.5 + Matrix::from_column_slice(f)) * size
+            })
             .collect(),
         first_piola_stress: numbers(D * D * references)
             .chunks_exact(D * D)
@@ -170,8 +200,11 @@ fn agree<'a>(
     }
 }
 
-struct EveryPass {
-    wide: bool,
+/// Distances between points along each axis, in cells.
+pub(super) const SPACING: [f64; 3] = [0.5, 0.31, 1.0];
+
+pub(super) struct EveryPass {
+    pub wide: bool,
 }
 
 impl BasisVisitor for EveryPass {
@@ -190,6 +223,9 @@ impl BasisVisitor for EveryPass {
         self.dimensions(basis, MlsApic, Method::MlsApic);
         self.dimensions(basis, Tpic, Method::Tpic);
     }
+
+    /// Domains have a plain form of their own.
+    fn visit_domains<const N: usize, B: Basis<N>>(self, _: B) {}
 }
 
 impl EveryPass {
@@ -199,20 +235,9 @@ impl EveryPass {
         transfer: T,
         method: Method,
     ) {
-        for total in [false, true] {
-            let plane = Kind {
-                axisymmetric: false,
-                total,
-            };
-            let ring = Kind {
-                axisymmetric: true,
-                total,
-            };
-            self.check::<1, N, B, T>(basis, transfer, method, [150], plane);
-            self.check::<2, N, B, T>(basis, transfer, method, [41, 37], plane);
-            self.check::<2, N, B, T>(basis, transfer, method, [41, 37], ring);
-            self.check::<3, N, B, T>(basis, transfer, method, [13, 10, 11], plane);
-        }
+        self.check::<1, N, B, T>(basis, transfer, method, [150]);
+        self.check::<2, N, B, T>(basis, transfer, method, [41, 37]);
+        self.check::<3, N, B, T>(basis, transfer, method, [13, 10, 11]);
     }
 
     fn check<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
@@ -221,38 +246,39 @@ impl EveryPass {
         transfer: T,
         method: Method,
         cells: [i32; D],
+    ) {
+        for kind in Kind::all::<D>(false) {
+            let geometry = Geometry::new(kind.corner(), 0.0625, cells, &basis);
+            let axes: [B; D] = std::array::from_fn(|a| basis.for_spacing(SPACING[a]));
+            let kernels = Stencils::<D, N, B, T> {
+                nodes: basis,
+                basis: vec![axes],
+                transfer,
+            };
+            let knows = |p: &Particles<D>, i: usize| known(&geometry, &axes, &p.grid_position()[i]);
+            let name = std::any::type_name::<(B, T)>();
+            self.compare(name, &geometry, &kernels, &knows, method, kind);
+        }
+    }
+
+    /// Holds every pass of the kernels to the plain ones.
+    pub(super) fn compare<const D: usize>(
+        &self,
+        name: &str,
+        geometry: &Geometry<D>,
+        kernels: &dyn Kernels<D>,
+        knows: &Knows<'_, D>,
+        method: Method,
         kind: Kind,
     ) {
         let wide = self.wide;
-        let Kind {
-            axisymmetric,
-            total,
-        } = kind;
-        let name = format!(
-            "{} {} {D}D wide {wide} total {total}",
-            std::any::type_name::<B>(),
-            std::any::type_name::<T>()
-        );
-        // small cells and places that are no round numbers; the axis of an axisymmetric grid is at zero
-        let min = Vector::from_fn(|a, _| {
-            if axisymmetric {
-                0.0
-            } else {
-                [0.0, -0.3, 0.7][a]
-            }
-        });
-        let geometry = Geometry::new(min, 0.0625, cells, &basis);
-        let axes: [B; D] = std::array::from_fn(|a| basis.for_spacing([0.5, 0.31, 1.0][a]));
-        let kernels = Stencils::<D, N, B, T> {
-            nodes: basis,
-            basis: vec![axes],
-            transfer,
-        };
+        let name = format!("{name} {D}D wide {wide} {kind:?}");
+        let affine = kernels.affine();
         let mut random = Random(0x9E37_79B9_7F4A_7C15 + D as u64);
-        let (mut fast, blocks) = points(&geometry, &kernels, T::AFFINE, kind, &mut random);
-        let edge = block_edge(D, N);
+        let (mut fast, blocks) = points(geometry, kernels, affine, kind, &mut random);
+        let edge = block_edge(D, kernels.nodes());
         let context = Context {
-            geometry: &geometry,
+            geometry,
             body: 0,
             edge,
             dt: DT,
@@ -266,7 +292,7 @@ impl EveryPass {
                 vec![Node::default(); blocks.stored],
             ];
             let count = fast.len();
-            let columns = Columns::new(&mut fast, count, T::AFFINE);
+            let columns = Columns::new(&mut fast, count, affine);
             let [main, change] = &mut arrays;
             for block in &blocks.bodies[0].blocks {
                 // SAFETY: one thread; the points were sorted, and moved within reach
@@ -282,17 +308,9 @@ impl EveryPass {
             }
             let mut plain = [Dense::new(geometry.counts), Dense::new(geometry.counts)];
             let [plain_main, plain_change] = &mut plain;
-            plain_scatter(
-                &geometry,
-                &axes,
-                method,
-                &fast,
-                what,
-                plain_main,
-                plain_change,
-            );
+            plain_scatter(knows, method, &fast, what, plain_main, plain_change);
             for (nodes, plain) in arrays.iter().zip(&plain) {
-                let nodes = dense(&geometry, &blocks, nodes);
+                let nodes = dense(geometry, &blocks, nodes);
                 agree(
                     &format!("{name} {what:?}"),
                     nodes.nodes.as_flattened(),
@@ -310,14 +328,14 @@ impl EveryPass {
                 })
                 .collect()
         });
-        let grid = [0, 1, 2].map(|k| dense(&geometry, &blocks, &arrays[k]));
+        let grid = [0, 1, 2].map(|k| dense(geometry, &blocks, &arrays[k]));
         let sources = Sources {
             main: arrays[0].as_ptr(),
             change: arrays[1].as_ptr(),
             second: arrays[2].as_ptr(),
         };
         self.check_exchange(
-            &kernels, &context, &axes, method, &blocks, &fast, &grid, &sources,
+            kernels, &context, knows, method, &blocks, &fast, &grid, &sources,
         );
         for [velocity, position, rate, same] in [
             [true, true, true, true],
@@ -334,12 +352,12 @@ impl EveryPass {
             };
             let name = format!("{name} {what:?}");
             let (mut fast, mut plain) = (fast.clone(), fast.clone());
-            let plain_rates = plain_gather(&geometry, &axes, method, &mut plain, what, &grid);
+            let plain_rates = plain_gather(knows, method, &mut plain, what, &grid);
             let count = fast.len();
-            let columns = Columns::new(&mut fast, count, T::AFFINE);
+            let columns = Columns::new(&mut fast, count, affine);
             let (mut gradients, mut hoops) = (Vec::new(), Vec::new());
             for block in &blocks.bodies[0].blocks {
-                let tile = Tile::new(block, edge, N);
+                let tile = Tile::new(block, edge, kernels.nodes());
                 let reach = Reach::new(block.origin, edge, geometry.cells, kernels.shift(0));
                 for first in block.points().step_by(CHUNK) {
                     let rows = first..(first + CHUNK).min(block.points().end);
@@ -368,7 +386,7 @@ impl EveryPass {
                         .flat_map(|column| &column[..D]),
                     plain_rates.iter().flat_map(|(gradient, _)| gradient),
                 );
-                if axisymmetric {
+                if kind.axisymmetric {
                     agree(&name, &hoops, plain_rates.iter().map(|(_, hoop)| hoop));
                 }
             }
@@ -388,41 +406,38 @@ impl EveryPass {
                 plain.affine.iter().flatten(),
             );
             agree(&name, &fast.hoop_stretch, &plain.hoop_stretch);
+            agree(
+                &name,
+                fast.deformation_gradient.iter().flatten(),
+                plain.deformation_gradient.iter().flatten(),
+            );
         }
     }
 
     /// New velocities as gathered, and their momenta as scattered.
     #[allow(clippy::too_many_arguments)]
-    fn check_exchange<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+    fn check_exchange<const D: usize>(
         &self,
-        kernels: &Stencils<D, N, B, T>,
+        kernels: &dyn Kernels<D>,
         context: &Context<'_, D>,
-        axes: &[B; D],
+        knows: &Knows<'_, D>,
         method: Method,
         blocks: &Blocks<D>,
         points: &Particles<D>,
         grid: &[Dense<D>; 3],
         sources: &Sources,
     ) {
-        let name = format!("exchange {N} {D}D");
+        let name = format!("exchange {method:?} {} {D}D", kernels.nodes());
         let geometry = context.geometry;
         let (mut fast, mut plain) = (points.clone(), points.clone());
         let mut plain_second = Dense::new(geometry.counts);
         let mut unused = Dense::new(geometry.counts);
-        plain_gather(geometry, axes, method, &mut plain, Wanted::VELOCITY, grid);
+        plain_gather(knows, method, &mut plain, Wanted::VELOCITY, grid);
         let what = Scattered::MOMENTUM;
-        plain_scatter(
-            geometry,
-            axes,
-            method,
-            &plain,
-            what,
-            &mut plain_second,
-            &mut unused,
-        );
+        plain_scatter(knows, method, &plain, what, &mut plain_second, &mut unused);
         let mut second = vec![Node::default(); blocks.stored];
         let count = fast.len();
-        let columns = Columns::new(&mut fast, count, T::AFFINE);
+        let columns = Columns::new(&mut fast, count, kernels.affine());
         for block in &blocks.bodies[0].blocks {
             // SAFETY: one thread; the points were sorted, and moved within reach
             unsafe { kernels.exchange(context, &columns, block, sources, second.as_mut_ptr()) };

@@ -7,6 +7,7 @@ use crate::math::{Matrix, Vector, packed_len, unpack};
 use crate::state::Particles;
 
 mod compare;
+mod domains;
 mod tiling;
 
 /// Δt of all passes, s.
@@ -54,9 +55,12 @@ struct Known<const D: usize> {
     gradient: Vector<D>,
     /// N_i D⁻¹ (x_i − x) with D = Σ N_i (x_i − x)(x_i − x)ᵀ; the gradient where a point has no D, or the basis says so.
     fitted: Vector<D>,
-    /// ∇N_i at the middle of the point's cell.
-    middle: Vector<D>,
+    /// ∇N_i at the middle of the point's cell, if changes of volume are taken there.
+    middle: Option<Vector<D>>,
 }
+
+/// Which nodes the point in a row knows.
+type Knows<'a, const D: usize> = dyn Fn(&Particles<D>, usize) -> Vec<Known<D>> + 'a;
 
 /// All nodes that a point knows, weights and gradients as products.
 fn known<const D: usize, const N: usize, B: Basis<N>>(
@@ -94,7 +98,7 @@ fn known<const D: usize, const N: usize, B: Basis<N>>(
                 weight: product(&axes, D),
                 gradient: Vector::from_fn(|a, _| product(&axes, a)),
                 fitted: Vector::zeros(),
-                middle: Vector::from_fn(|a, _| product(&middle, a)),
+                middle: B::DILATION_AT_CENTRE.then(|| Vector::from_fn(|a, _| product(&middle, a))),
             }
         })
         .collect();
@@ -115,7 +119,7 @@ fn known<const D: usize, const N: usize, B: Basis<N>>(
 }
 
 /// How a transfer is written in a paper.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum Method {
     Pic,
     Flip(f64),
@@ -126,9 +130,8 @@ enum Method {
 
 /// Momentum m v + m C (x_i − x) and mass; force −V₀ τ ∇N, and −V₀ τ_θ N / r along r. In the total frame N is that of the
 /// reference position, and the force −V₀ P ∇₀N; r is the present one.
-fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
-    geometry: &Geometry<D>,
-    basis: &[B; D],
+fn plain_scatter<const D: usize>(
+    knows: &Knows<'_, D>,
     method: Method,
     p: &Particles<D>,
     what: Scattered,
@@ -137,7 +140,7 @@ fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
 ) {
     let width = packed_len(D);
     for i in 0..p.len() {
-        for known in known(geometry, basis, &p.grid_position()[i]) {
+        for known in knows(p, i) {
             if what.momentum {
                 let mut velocity = p.velocity[i];
                 if matches!(method, Method::Apic | Method::MlsApic | Method::Tpic) {
@@ -159,11 +162,11 @@ fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
                     gradient = known.fitted;
                 }
                 let mut internal = stress * gradient;
-                if B::DILATION_AT_CENTRE {
+                if let Some(middle) = known.middle {
                     // P = P_dev + (P : F / d) F⁻ᵀ; in the updated frame τ with F = I
                     let (f, inverse) = stretching(p, i);
                     let pressure = inverse * (stress.dot(&f) / D as f64);
-                    internal = (stress - pressure) * gradient + pressure * known.middle;
+                    internal = (stress - pressure) * gradient + pressure * middle;
                 }
                 internal *= -p.initial_volume[i];
                 if let Some(hoop) = p.hoop_stress.get(i) {
@@ -180,25 +183,29 @@ fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
 
 /// F and F⁻ᵀ of a point; I where the grid is that of the present positions.
 fn stretching<const D: usize>(p: &Particles<D>, i: usize) -> (Matrix<D>, Matrix<D>) {
-    let f = p.deformation_gradient.get(i).copied();
-    let f = f.unwrap_or_else(Matrix::identity);
+    let f = if p.is_total() {
+        p.deformation_gradient[i]
+    } else {
+        Matrix::identity()
+    };
     let inverse = f.try_inverse().expect("F is not singular");
     (f, inverse.transpose())
 }
 
-/// What every point takes from the grid: (velocity gradient, v_r / r); in the total frame the gradient is Ḟ.
-fn plain_gather<const D: usize, const N: usize, B: Basis<N>>(
-    geometry: &Geometry<D>,
-    basis: &[B; D],
+/// What every point takes from the grid: (velocity gradient, v_r / r); in the total frame the gradient is Ḟ. Domains are carried
+/// along when points move.
+fn plain_gather<const D: usize>(
+    knows: &Knows<'_, D>,
     method: Method,
     p: &mut Particles<D>,
     what: Wanted,
     grid: &[Dense<D>; 3],
 ) -> Vec<(Matrix<D>, f64)> {
     let [main, change, second] = grid;
+    let total = p.is_total();
     let mut rates = Vec::new();
     for i in 0..p.len() {
-        let nodes = known(geometry, basis, &p.grid_position()[i]);
+        let nodes = knows(p, i);
         let mean = |grid: &Dense<D>| -> Vector<D> {
             nodes.iter().map(|k| grid.vector(&k.node) * k.weight).sum()
         };
@@ -220,10 +227,10 @@ fn plain_gather<const D: usize, const N: usize, B: Basis<N>>(
             Method::MlsApic => fit(straining),
             _ => slope(straining),
         };
-        if B::DILATION_AT_CENTRE {
-            let middle: Matrix<D> = nodes
-                .iter()
-                .map(|k| straining.vector(&k.node) * k.middle.transpose())
+        if nodes.iter().any(|k| k.middle.is_some()) {
+            let at_middle = nodes.iter().filter_map(|k| Some((k, k.middle?)));
+            let middle: Matrix<D> = at_middle
+                .map(|(k, gradient)| straining.vector(&k.node) * gradient.transpose())
                 .sum();
             let (f, inverse) = stretching(p, i);
             rate += f * ((middle - rate).dot(&inverse) / D as f64);
@@ -254,6 +261,9 @@ fn plain_gather<const D: usize, const N: usize, B: Basis<N>>(
             let taken = !what.velocity && !matches!(method, Method::Flip(_));
             let velocity = if taken { p.velocity[i] } else { mean(main) };
             p.position[i] += velocity * DT;
+            if let (Some(f), false) = (p.deformation_gradient.get_mut(i), total) {
+                *f += slope(main) * *f * DT;
+            }
         }
     }
     rates

@@ -38,7 +38,8 @@ impl BasisVisitor for EvenTiling {
         let mut force = Dense::new(geometry.counts);
         let flip = Method::Flip(1.0);
         let what = Scattered::FORCE;
-        plain_scatter(&geometry, &axes, flip, &p, what, &mut main, &mut force);
+        let knows = |p: &Particles<2>, i: usize| known(&geometry, &axes, &p.reference_position[i]);
+        plain_scatter(&knows, flip, &p, what, &mut main, &mut force);
         let inner = 6..geometry.counts[0] - 6;
         let mut seen = 0;
         for node in nodes(geometry.counts[0]) {

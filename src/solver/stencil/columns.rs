@@ -13,7 +13,7 @@ pub struct Columns<const D: usize> {
     /// x.
     pub(super) position: *mut Vector<D>,
     /// Where the points stand in the grid: X in the total frame, else x, the same column as `position`.
-    place: *const Vector<D>,
+    pub(super) place: *const Vector<D>,
     pub(super) velocity: *mut Vector<D>,
     pub(super) affine: *mut Matrix<D>,
     pub(super) mass: *const f64,
@@ -26,6 +26,8 @@ pub struct Columns<const D: usize> {
     pub(super) axisymmetric: bool,
     /// Whether points stay where they are in the grid.
     pub(super) total: bool,
+    /// Whether points have domains that deform with them, and how they have is in `deformation`.
+    pub(super) convected: bool,
 }
 
 // SAFETY: threads are given disjoint rows (module header)
@@ -63,6 +65,7 @@ impl<const D: usize> Columns<D> {
             hoop_stretch: particles.hoop_stretch.as_mut_ptr(),
             axisymmetric: !particles.hoop_stretch.is_empty(),
             total,
+            convected: !total && !particles.deformation_gradient.is_empty(),
         }
     }
 
@@ -200,6 +203,18 @@ impl<const D: usize> Columns<D> {
                 std::slice::from_raw_parts_mut(self.first_piola.add(first), count),
             )
         }
+    }
+
+    /// The deformation gradient of the domain of the point in row `p`.
+    ///
+    /// # Safety
+    /// No other thread uses this row meanwhile; points have domains that deform with them.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref)] // the caller promises
+    pub(super) unsafe fn domain(&self, p: usize) -> &mut Matrix<D> {
+        debug_assert!(self.convected);
+        // SAFETY: the row exists, and the caller keeps everybody else away
+        unsafe { &mut *self.deformation.add(p) }
     }
 
     /// Stress, hoop stress and hoop stretch of the given rows, for their law.

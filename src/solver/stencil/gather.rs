@@ -47,7 +47,7 @@ pub struct Rates<const D: usize> {
     /// L, 1/s.
     gradient: [MaybeUninit<Rate<D>>; CHUNK],
     /// v_r / r, 1/s; only set in an axisymmetric scene.
-    hoop: [f64; CHUNK],
+    pub(super) hoop: [f64; CHUNK],
 }
 
 impl<const D: usize> Default for Rates<D> {
@@ -84,7 +84,7 @@ impl<const D: usize> Rates<D> {
 
     /// Sets the columns of one point's gradient.
     #[inline(always)]
-    fn set<L: Lane>(&mut self, point: usize, columns: &[L; D]) {
+    pub(super) fn set<L: Lane>(&mut self, point: usize, columns: &[L; D]) {
         let gradient = self.gradient[point].as_mut_ptr().cast::<f64>();
         for a in 0..D {
             // SAFETY: column a of a gradient is four numbers, aligned to 32 bytes

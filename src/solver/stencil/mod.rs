@@ -11,6 +11,7 @@
 //! node. Blocks hold disjoint ranges of rows, so no two threads touch the same point.
 
 mod columns;
+mod cpdi;
 mod dilation;
 mod gather;
 mod group;
@@ -19,6 +20,7 @@ mod scatter;
 mod tile;
 
 pub use columns::Columns;
+pub use cpdi::Domains;
 pub use gather::{Gathered, Rates, Sources, Wanted, exchange, gather};
 pub use scatter::{Scattered, scatter, scatter_forces};
 pub use tile::{Reach, Tile};

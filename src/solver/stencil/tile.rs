@@ -1,11 +1,12 @@
 //! Which nodes the points of a block may reach, and where those nodes are stored.
 
 use crate::grid::{Block, Node};
+use crate::real::Real;
 use crate::solver::lane::Lane;
 use std::mem::MaybeUninit;
 
-/// The most rows that a tile has: 13 × 13, for blocks of 8 and stencils of 4 in 3D.
-const MAX_ROWS: usize = 169;
+/// The most rows that a tile has: 15 × 15, for blocks of 8 and stencils of 6 in 3D.
+const MAX_ROWS: usize = 225;
 
 /// How many nodes outside its block a stencil may start.
 const MARGIN: usize = 1;
@@ -91,10 +92,10 @@ impl<const D: usize> Tile<D> {
 
     /// Where stencils that start at the given nodes lie along axis `a` of the tile.
     #[inline(always)]
-    pub(super) fn local<L: Lane>(&self, a: usize, first: L) -> L {
-        let start = L::splat(f64::from(self.origin[a] - MARGIN as i32));
+    pub(super) fn local<R: Real>(&self, a: usize, first: R) -> R {
+        let start = R::splat(f64::from(self.origin[a] - MARGIN as i32));
         // a place that is not a number counts as the first
-        (first - start).max(L::splat(0.0)).min(L::splat(self.last))
+        (first - start).max(R::splat(0.0)).min(R::splat(self.last))
     }
 
     /// Whether all stencils that start in the tile are among `low ..= high` along axis `a`.

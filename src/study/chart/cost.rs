@@ -12,7 +12,7 @@ pub fn passes(update: Scheme) -> u32 {
     }
 }
 
-/// Nodes in the stencil of a point: nᵈ for n functions an axis.
+/// How many nodes a point meets in a pass: nᵈ for n functions an axis; of a domain each of the 2ᵈ corners meets 2ᵈ nodes.
 pub fn stencil_nodes(scenario: &Scenario) -> u64 {
     struct Nodes;
     impl BasisVisitor for Nodes {
@@ -20,6 +20,11 @@ pub fn stencil_nodes(scenario: &Scenario) -> u64 {
 
         fn visit<const N: usize, B: Basis<N>>(self, _: B) -> u64 {
             N as u64
+        }
+
+        // two ends an axis, each of which knows two nodes
+        fn visit_domains<const N: usize, B: Basis<N>>(self, _: B) -> u64 {
+            4
         }
     }
     scenario

@@ -23,7 +23,8 @@ pub struct Bar {
     pub held: Vec<[f64; 2]>,
     /// The velocity at which they are held, m/s.
     pub drift: f64,
-    /// How much farther apart than at rest its points lie. They keep their width, and their stress is set by whoever asks.
+    /// How much farther apart than at rest its points lie. They keep their width, unless they have domains, which are stretched
+    /// as the bar is; their stress is set by whoever asks.
     pub stretch: f64,
 }
 
@@ -99,6 +100,7 @@ particles_per_cell = {}
             solver: scene.solver,
             rest,
             affine,
+            stretch: self.stretch,
         })
     }
 }
@@ -110,6 +112,7 @@ pub struct Specimen {
     solver: Box<dyn Solver<1>>,
     rest: Vec<f64>,
     affine: bool,
+    stretch: f64,
 }
 
 /// What a point holds: velocity, m/s; stress, Pa; affine field, 1/s.
@@ -138,6 +141,9 @@ impl Specimen {
             let id = p.id[row] as usize;
             let [velocity, stress, affine] = point(id);
             p.position[row][0] = self.rest[id];
+            if let Some(deformed) = p.deformation_gradient.get_mut(row) {
+                deformed[(0, 0)] = self.stretch;
+            }
             p.velocity[row][0] = velocity;
             p.stress[row] = stress;
             if let Some(field) = p.affine.get_mut(row) {

@@ -47,7 +47,7 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
         let reached = reached?;
         let predicted = match (method.basis, points) {
             ("linear", 2) => Some(*linear),
-            ("linear" | "gimp", _) => None,
+            ("linear" | "gimp" | "cpdi", _) => None,
             _ => Some(1.0),
         };
         findings.push(method.basis, format!("nu = {ratio}"), predicted, reached);
