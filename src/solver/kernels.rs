@@ -123,9 +123,13 @@ pub struct Stencils<const D: usize, const N: usize, B, T> {
 }
 
 impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Stencils<D, N, B, T> {
-    fn pass<'a>(&self, context: &Context<'a, D>) -> Pass<'a, D, B, T> {
+    fn pass(&self, context: &Context<'_, D>) -> Pass<D, B, T> {
+        let geometry = context.geometry;
         Pass {
-            geometry: context.geometry,
+            min: geometry.min.into(),
+            cell_size: geometry.cell_size,
+            inverse_size: 1.0 / geometry.cell_size,
+            cells: geometry.cells,
             basis: self.basis[context.body],
             transfer: self.transfer,
             dt: context.dt,
@@ -273,7 +277,7 @@ mod wide {
 
     #[target_feature(enable = "avx2,fma")]
     pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<'_, D, B, T>,
+        pass: &Pass<D, B, T>,
         columns: &Columns<D>,
         block: &Block<D>,
         edge: i32,
@@ -287,7 +291,7 @@ mod wide {
 
     #[target_feature(enable = "avx2,fma")]
     pub unsafe fn exchange<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<'_, D, B, T>,
+        pass: &Pass<D, B, T>,
         columns: &Columns<D>,
         block: &Block<D>,
         edge: i32,
@@ -301,7 +305,7 @@ mod wide {
     #[target_feature(enable = "avx2,fma")]
     #[allow(clippy::too_many_arguments)]
     pub unsafe fn gather<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<'_, D, B, T>,
+        pass: &Pass<D, B, T>,
         columns: &Columns<D>,
         tile: &Tile<D>,
         reach: &Reach<D>,

@@ -1,6 +1,8 @@
 //! From points to the grid.
 
+use super::gather::FourRows;
 use super::group::{Group, Needs};
+use super::line::scatter_four;
 use super::nodes::{Gift, Stencil, scatter_gift};
 use super::{Columns, Pass, Tile};
 use crate::basis::Basis;
@@ -44,7 +46,7 @@ impl Scattered {
 /// transfer does not use it), and no other thread adds to nodes of this tile meanwhile.
 #[inline(always)]
 pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    pass: &Pass<'_, D, B, T>,
+    pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     block: &Block<D>,
     edge: i32,
@@ -65,6 +67,14 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
         let place = unsafe { columns.places::<L>(first, count) };
         columns.prefetch::<L>(first, T::AFFINE && what.momentum, what.force);
         group.set::<L, B, T>(pass, &tile, &place, needs);
+        if D == 1 {
+            let rows = FourRows { first, count };
+            // SAFETY: as the caller says, and as above
+            unsafe {
+                scatter_four::<L, D, N, B, T>(pass, columns, &group, &tile, rows, what, main, force)
+            };
+            continue;
+        }
         for q in 0..count {
             let s = Stencil {
                 group: &group,
@@ -87,7 +97,7 @@ pub(super) unsafe fn scatter_point<
     B: Basis<N>,
     T: Transfer,
 >(
-    pass: &Pass<'_, D, B, T>,
+    pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     s: &Stencil<'_, D, N>,
     p: usize,
@@ -230,7 +240,7 @@ fn first_numbers<const D: usize>(x: f64) -> [f64; 4] {
 /// As for [`scatter`].
 #[inline(always)]
 pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    pass: &Pass<'_, D, B, T>,
+    pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     block: &Block<D>,
     edge: i32,
