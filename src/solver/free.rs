@@ -280,3 +280,110 @@ fn mass_of<L: Lane, const D: usize>(node: L) -> L {
         _ => node.broadcast::<3>(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[target_feature(enable = "avx2,fma")]
+    #[cfg(target_arch = "x86_64")]
+    fn wide<const D: usize>(
+        free: &Free<D>,
+        main: &mut [Node],
+        change: &mut [Node],
+    ) -> FreeSums<crate::real::Avx> {
+        let mut sums = FreeSums::new();
+        free.nodes(main, change, &mut sums);
+        sums
+    }
+
+    /// Momenta, masses and forces of `count` nodes, every fifth without mass.
+    fn nodes<const D: usize>(count: usize) -> (Vec<Node>, Vec<Node>) {
+        let number = |k: usize| (0.37 + k as f64 * 0.618_033_988_75).fract() - 0.5;
+        let (mut main, mut change) = (Vec::new(), Vec::new());
+        for k in 0..count {
+            let (mut node, mut pull) = (Node::default(), Node::default());
+            if k % 5 != 3 {
+                for a in 0..D {
+                    node.0[a] = number(10 * k + a);
+                    pull.0[a] = number(10 * k + 5 + a);
+                }
+                node.0[D] = 1.0 + number(10 * k + 9);
+            }
+            main.push(node);
+            change.push(pull);
+        }
+        (main, change)
+    }
+
+    /// Every number of rows of up to nine nodes, groups of four and what is left of them, against Newton's law node by node.
+    fn newton<const D: usize>(split: bool, use_wide: bool) {
+        let free = Free::<D> {
+            gravity: Vector::from_fn(|a, _| 0.3 - 0.7 * a as f64),
+            dt: 0.2,
+        };
+        for count in 0..=9 {
+            let (start, pulls) = nodes::<D>(count);
+            let (mut main, mut change) = (start.clone(), pulls.clone());
+            if !split {
+                change.clear();
+            }
+            let mut found = GridSums::default();
+            #[cfg(target_arch = "x86_64")]
+            if use_wide && crate::real::wide_instructions() {
+                // SAFETY: the instructions were just found
+                let sums = unsafe { wide(&free, &mut main, &mut change) };
+                free.account(&sums, &mut found);
+            }
+            if !(use_wide && crate::real::wide_instructions()) {
+                let mut sums = FreeSums::<Portable>::new();
+                free.nodes(&mut main, &mut change, &mut sums);
+                free.account(&sums, &mut found);
+            }
+            let mut divided = start.clone();
+            divide::<D>(&mut divided, use_wide && crate::real::wide_instructions());
+            let mut book = GridSums::default();
+            for k in 0..count {
+                let mass = start[k].0[D];
+                let there = if mass > 0.0 { PRESENT } else { 0.0 };
+                assert_eq!(main[k].0[D], there, "{D}D, {count} nodes");
+                assert_eq!(divided[k].0[D], there);
+                for a in 0..D {
+                    let (mut v, mut dv) = (0.0, 0.0);
+                    let pull = if split { pulls[k].0[a] } else { 0.0 };
+                    if mass > 0.0 {
+                        v = start[k].0[a] / mass;
+                        dv = (free.gravity[a] + pull / mass) * free.dt;
+                    }
+                    let end = v + dv;
+                    assert!((divided[k].0[a] - v).abs() < 1e-14);
+                    assert!((main[k].0[a] - end).abs() < 1e-14, "{D}D, {count} nodes");
+                    if split {
+                        assert!((change[k].0[a] - dv).abs() < 1e-14);
+                    }
+                    book.arrived += 0.5 * mass * v * v;
+                    book.left += 0.5 * mass * end * end;
+                    book.internal += 0.5 * free.dt * pull * (v + end);
+                    book.gravity += 0.5 * free.dt * mass * free.gravity[a] * (v + end);
+                }
+            }
+            for (found, book) in [
+                (found.arrived, book.arrived),
+                (found.left, book.left),
+                (found.internal, book.internal),
+                (found.gravity, book.gravity),
+            ] {
+                assert!((found - book).abs() < 1e-13, "{D}D, {count} nodes");
+            }
+        }
+    }
+
+    #[test]
+    fn free_nodes_follow_newtons_law_however_many_there_are() {
+        for (split, wide) in [(false, false), (false, true), (true, false), (true, true)] {
+            newton::<1>(split, wide);
+            newton::<2>(split, wide);
+            newton::<3>(split, wide);
+        }
+    }
+}
