@@ -76,11 +76,9 @@ impl Sum {
     #[inline(always)]
     pub fn add(&mut self, term: f64) {
         let sum = self.sum + term;
-        self.lost += if self.sum.abs() >= term.abs() {
-            (self.sum - sum) + term
-        } else {
-            (term - sum) + self.sum
-        };
+        // what rounding took, exactly, whichever of the two is the larger (Knuth's TwoSum): no branch
+        let added = sum - self.sum;
+        self.lost += (self.sum - (sum - added)) + (term - added);
         self.sum = sum;
     }
 

@@ -1,10 +1,13 @@
 //! The momentum equation on the nodes of the grid, and the conditions imposed there.
 
 use super::disjoint::Disjoint;
+use super::free::{Free, FreeSums, NO_MASS, PRESENT, divide};
+use super::lane::Lane;
 use super::ledger::GridSums;
 use crate::boundary::{Condition, Node as Place};
 use crate::grid::{Node, Row};
 use crate::math::Vector;
+use crate::real::Portable;
 use rayon::prelude::*;
 
 /// A condition on one node.
@@ -46,6 +49,8 @@ pub struct GridStep<'a, const D: usize> {
     pub time: f64,
     /// Δt, s.
     pub dt: f64,
+    /// Whether to use wide instructions; only if the processor has them.
+    pub wide: bool,
 }
 
 /// Runs `work` on every row, on several threads if asked.
@@ -68,13 +73,6 @@ pub fn for_each_row<const D: usize, R: Send>(
     }
 }
 
-/// What takes the place of the mass once a node has a velocity; a node without mass has none, and points must not take its
-/// zero for one.
-const PRESENT: f64 = 1.0;
-
-/// Below this mass a node's velocity cannot be computed; no point comes near it.
-const NO_MASS: f64 = 1e-290;
-
 impl<const D: usize> GridStep<'_, D> {
     /// Turns momenta and forces into velocities at the end of the step and their changes; `sums` gets one entry a row.
     pub fn integrate(&mut self, sums: &mut [GridSums], parallel: bool) {
@@ -82,7 +80,13 @@ impl<const D: usize> GridStep<'_, D> {
         let main = Disjoint::new(self.main);
         let change = Disjoint::new(self.change);
         let constraints = Disjoint::new(self.constraints);
-        let decay = (-self.damping * self.dt).exp();
+        let decay = if self.damping == 0.0 {
+            1.0
+        } else {
+            (-self.damping * self.dt).exp()
+        };
+        #[cfg(target_arch = "x86_64")]
+        let wide = self.wide;
         let this = Shared {
             external: self.external,
             ranges: self.ranges,
@@ -114,7 +118,12 @@ impl<const D: usize> GridStep<'_, D> {
             } else {
                 &this.external[nodes]
             };
-            this.row(main, change, external, constraints)
+            #[cfg(target_arch = "x86_64")]
+            if wide {
+                // SAFETY: the instructions were found
+                return unsafe { row_wide(&this, main, change, external, constraints) };
+            }
+            this.row::<Portable>(main, change, external, constraints)
         });
     }
 
@@ -129,20 +138,13 @@ impl<const D: usize> GridStep<'_, D> {
         time: f64,
         scratch: &mut [GridSums],
         parallel: bool,
+        wide: bool,
     ) {
         let nodes = Disjoint::new(nodes);
         for_each_row(rows, scratch, parallel, |index, row| {
             // SAFETY: rows share no node
             let nodes = unsafe { nodes.slice(row.start as usize..(row.start + row.len) as usize) };
-            for node in nodes.iter_mut() {
-                let mass = node.0[D];
-                let there = mass > NO_MASS;
-                let inverse = if there { 1.0 / mass } else { 0.0 };
-                node.0[D] = if there { PRESENT } else { 0.0 };
-                for a in 0..D {
-                    node.0[a] *= inverse;
-                }
-            }
+            divide::<D>(nodes, wide);
             let (first, last) = ranges[index];
             for constraint in &constraints[first as usize..last as usize] {
                 let node = &mut nodes[constraint.offset as usize];
@@ -164,28 +166,17 @@ fn vector<const D: usize>(node: &Node) -> Vector<D> {
     Vector::from_fn(|a, _| node.0[a])
 }
 
-/// Sums over nodes on which nothing but gravity and the points act; component D means nothing.
-#[derive(Default)]
-struct FreeSums {
-    /// Σ ½ m v∘v at the start of the step.
-    arrived: [f64; 4],
-    /// The same at its end.
-    left: [f64; 4],
-    /// Σ f ∘ (v + v'), twice the power of internal forces.
-    internal: [f64; 4],
-    /// Σ m (v + v') / 2.
-    momentum: [f64; 4],
-}
-
-impl FreeSums {
-    fn add_to<const D: usize>(&self, dt: f64, gravity: &Vector<D>, sums: &mut GridSums) {
-        for a in 0..D {
-            sums.arrived += self.arrived[a];
-            sums.left += self.left[a];
-            sums.internal += 0.5 * dt * self.internal[a];
-            sums.gravity += dt * gravity[a] * self.momentum[a];
-        }
-    }
+/// [`Shared::row`], compiled for wide instructions.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn row_wide<const D: usize>(
+    shared: &Shared<'_, D>,
+    main: &mut [Node],
+    change: &mut [Node],
+    external: &[Node],
+    constraints: &mut [Constraint<D>],
+) -> GridSums {
+    shared.row::<crate::real::Avx>(main, change, external, constraints)
 }
 
 struct Shared<'a, const D: usize> {
@@ -201,7 +192,7 @@ struct Shared<'a, const D: usize> {
 
 impl<const D: usize> Shared<'_, D> {
     #[inline(always)]
-    fn row(
+    fn row<L: Lane>(
         &self,
         main: &mut [Node],
         change: &mut [Node],
@@ -209,15 +200,27 @@ impl<const D: usize> Shared<'_, D> {
         constraints: &mut [Constraint<D>],
     ) -> GridSums {
         let mut sums = GridSums::default();
-        let mut free = FreeSums::default();
+        let free = Free {
+            gravity: self.gravity,
+            dt: self.dt,
+        };
+        let mut free_sums = FreeSums::<L>::new();
         // without these a node needs a few operations; most scenes have no others, but for the nodes at their sides
         let plain = external.is_empty() && self.decay == 1.0;
         let mut rest = constraints;
-        for k in 0..main.len() {
-            if plain && rest.first().is_none_or(|next| next.offset as usize > k) {
-                self.free_node(&mut main[k], change.get_mut(k), &mut free);
-                continue;
+        let mut next = 0;
+        while next < main.len() {
+            let k = next;
+            if plain {
+                let held = rest.first().map_or(main.len(), |c| c.offset as usize);
+                if held > k {
+                    let own = if change.is_empty() { 0..0 } else { k..held };
+                    free.nodes::<L>(&mut main[k..held], &mut change[own], &mut free_sums);
+                    next = held;
+                    continue;
+                }
             }
+            next += 1;
             let held = rest.partition_point(|constraint| constraint.offset as usize == k);
             let (here, after) = std::mem::take(&mut rest).split_at_mut(held);
             rest = after;
@@ -247,54 +250,8 @@ impl<const D: usize> Shared<'_, D> {
                 change.0[..D].copy_from_slice(difference.as_slice());
             }
         }
-        free.add_to::<D>(self.dt, &self.gravity, &mut sums);
+        free.account(&free_sums, &mut sums);
         sums
-    }
-
-    /// What [`Self::node`] does where nothing but gravity and the points act: four numbers at once, the mass among them, the mass as if it
-    /// were a component.
-    #[inline(always)]
-    fn free_node(&self, main: &mut Node, change: Option<&mut Node>, sums: &mut FreeSums) {
-        let mass = main.0[D];
-        if mass <= NO_MASS {
-            *main = Node::default();
-            if let Some(change) = change {
-                *change = Node::default();
-            }
-            return;
-        }
-        let mut g = [0.0; 4];
-        g[..D].copy_from_slice(self.gravity.as_slice());
-        let inverse = 1.0 / mass;
-        let half = 0.5 * mass;
-        // four are added and multiplied as fast as three
-        let components = if D == 3 { 4 } else { D };
-        match change {
-            Some(change) => {
-                for a in 0..components {
-                    let start = main.0[a] * inverse;
-                    let pull = change.0[a];
-                    let end = start + (g[a] + pull * inverse) * self.dt;
-                    sums.arrived[a] += half * start * start;
-                    sums.left[a] += half * end * end;
-                    sums.internal[a] += pull * (start + end);
-                    sums.momentum[a] += half * (start + end);
-                    change.0[a] = end - start;
-                    main.0[a] = end;
-                }
-            }
-            None => {
-                for a in 0..components {
-                    let start = main.0[a] * inverse;
-                    let end = start + g[a] * self.dt;
-                    sums.arrived[a] += half * start * start;
-                    sums.left[a] += half * end * end;
-                    sums.momentum[a] += half * (start + end);
-                    main.0[a] = end;
-                }
-            }
-        }
-        main.0[D] = PRESENT;
     }
 
     /// One node: velocity at the end of the step and its change.

@@ -130,13 +130,9 @@ pub struct Stencils<const D: usize, const N: usize, B, T> {
 }
 
 impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Stencils<D, N, B, T> {
-    fn pass<'a>(&self, context: &Context<'a, D>) -> Pass<'a, D, B, T> {
-        Pass {
-            geometry: context.geometry,
-            basis: self.basis[context.body],
-            transfer: self.transfer,
-            dt: context.dt,
-        }
+    fn pass(&self, context: &Context<'_, D>) -> Pass<D, B, T> {
+        let basis = self.basis[context.body];
+        Pass::new(context.geometry, basis, self.transfer, context.dt)
     }
 }
 
@@ -286,7 +282,7 @@ mod wide {
 
     #[target_feature(enable = "avx2,fma")]
     pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<'_, D, B, T>,
+        pass: &Pass<D, B, T>,
         columns: &Columns<D>,
         block: &Block<D>,
         edge: i32,
@@ -300,7 +296,7 @@ mod wide {
 
     #[target_feature(enable = "avx2,fma")]
     pub unsafe fn exchange<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<'_, D, B, T>,
+        pass: &Pass<D, B, T>,
         columns: &Columns<D>,
         block: &Block<D>,
         edge: i32,
@@ -314,7 +310,7 @@ mod wide {
     #[target_feature(enable = "avx2,fma")]
     #[allow(clippy::too_many_arguments)]
     pub unsafe fn gather<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<'_, D, B, T>,
+        pass: &Pass<D, B, T>,
         columns: &Columns<D>,
         tile: &Tile<D>,
         reach: &Reach<D>,

@@ -49,6 +49,26 @@ pub trait Lane: Real {
     unsafe fn store_points<const D: usize>(points: &[Self; D], to: *mut f64);
     /// Lane a has number a of each of the four.
     fn turn<const D: usize>(points: &[Self; 4]) -> [Self; D];
+    /// Reads `count` numbers, one to four; the others are zero.
+    ///
+    /// # Safety
+    /// `from` points to `count` readable numbers.
+    unsafe fn load_some(from: *const f64, count: usize) -> Self;
+    /// Reads two numbers at each of four addresses: lane a has number a of each.
+    ///
+    /// # Safety
+    /// Each address leads to two readable numbers, aligned to 16 bytes.
+    unsafe fn load_pairs(from: [*const f64; 4]) -> [Self; 2];
+    /// Writes what [`Self::load_pairs`] reads.
+    ///
+    /// # Safety
+    /// Each address leads to two writable numbers, aligned to 16 bytes.
+    unsafe fn store_pairs(pairs: [Self; 2], to: [*mut f64; 4]);
+    /// Adds the pairs to what there is, one after the other: addresses may be the same.
+    ///
+    /// # Safety
+    /// As for [`Self::store_pairs`].
+    unsafe fn add_pairs(pairs: [Self; 2], to: [*mut f64; 4]);
     /// The columns of a symmetric matrix that is stored row by row from the diagonal on; what follows the first `D` numbers of a
     /// column may be anything that the matrix holds.
     ///
@@ -123,6 +143,40 @@ impl Lane for Portable {
     #[inline(always)]
     fn turn<const D: usize>(points: &[Self; 4]) -> [Self; D] {
         std::array::from_fn(|a| Self(std::array::from_fn(|q| points[q].0[a])))
+    }
+    #[inline(always)]
+    unsafe fn load_some(from: *const f64, count: usize) -> Self {
+        // SAFETY: the caller vouches for `count` numbers
+        Self(std::array::from_fn(|q| {
+            if q < count {
+                unsafe { *from.add(q) }
+            } else {
+                0.0
+            }
+        }))
+    }
+    #[inline(always)]
+    unsafe fn load_pairs(from: [*const f64; 4]) -> [Self; 2] {
+        // SAFETY: the caller vouches for two numbers at each address
+        std::array::from_fn(|a| Self(from.map(|pair| unsafe { *pair.add(a) })))
+    }
+    #[inline(always)]
+    unsafe fn store_pairs(pairs: [Self; 2], to: [*mut f64; 4]) {
+        for q in 0..4 {
+            for a in 0..2 {
+                // SAFETY: the caller vouches for two numbers at each address
+                unsafe { *to[q].add(a) = pairs[a].0[q] };
+            }
+        }
+    }
+    #[inline(always)]
+    unsafe fn add_pairs(pairs: [Self; 2], to: [*mut f64; 4]) {
+        for q in 0..4 {
+            for a in 0..2 {
+                // SAFETY: the caller vouches for two numbers at each address
+                unsafe { *to[q].add(a) += pairs[a].0[q] };
+            }
+        }
     }
     #[inline(always)]
     unsafe fn load_symmetric<const D: usize>(from: *const f64) -> [Self; D] {

@@ -2,6 +2,7 @@
 
 mod disjoint;
 mod frame;
+mod free;
 mod integrate;
 mod kernels;
 pub mod lane;

@@ -142,6 +142,7 @@ impl<const D: usize> Mpm<D> {
             ratio: self.kernels.ratio(),
             time: state.time,
             dt,
+            wide: self.wide,
         };
         step.integrate(&mut self.row_sums, self.parallel);
         self.react(dt);
@@ -176,6 +177,7 @@ impl<const D: usize> Mpm<D> {
             time,
             &mut self.row_sums,
             self.parallel,
+            self.wide,
         );
     }
 

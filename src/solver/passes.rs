@@ -46,11 +46,21 @@ unsafe impl Send for Readable {}
 // SAFETY: as above
 unsafe impl Sync for Readable {}
 
-fn for_each(count: usize, points_each: usize, parallel: bool, work: impl Fn(usize) + Send + Sync) {
+/// Blocks that a task should have at least, where `blocks` hold `points`.
+fn blocks_per_task(points: usize, blocks: usize) -> usize {
+    (POINTS_PER_TASK * blocks / points.max(1)).max(1)
+}
+
+fn for_each(
+    count: usize,
+    least: impl Fn() -> usize,
+    parallel: bool,
+    work: impl Fn(usize) + Send + Sync,
+) {
     if parallel && count > 1 {
         (0..count)
             .into_par_iter()
-            .with_min_len((POINTS_PER_TASK / points_each.max(1)).max(1))
+            .with_min_len(least())
             .for_each(work);
     } else {
         (0..count).for_each(work);
@@ -140,9 +150,9 @@ impl<const D: usize> Mpm<D> {
         work: impl Fn(usize, &Block<D>) + Send + Sync,
     ) {
         let own = &self.blocks.bodies[body];
-        let points_each = points / own.blocks.len().max(1);
+        let least = || blocks_per_task(points, own.blocks.len());
         for colour in &own.colours {
-            for_each(colour.len(), points_each, self.parallel, |i| {
+            for_each(colour.len(), least, self.parallel, |i| {
                 let number = colour[i] as usize;
                 work(number, &own.blocks[number]);
             });
@@ -201,7 +211,7 @@ impl<const D: usize> Mpm<D> {
             let material = &*body.material;
             let context = self.context(index, dt);
             let blocks = &self.blocks.bodies[index].blocks;
-            let points_each = body.particles.len() / blocks.len().max(1);
+            let points = body.particles.len();
             let shift = self.kernels.shift(index);
             results.clear();
             results.resize(blocks.len(), Gathered::NONE);
@@ -220,7 +230,7 @@ impl<const D: usize> Mpm<D> {
                 results
                     .par_iter_mut()
                     .zip(blocks)
-                    .with_min_len((POINTS_PER_TASK / points_each.max(1)).max(1))
+                    .with_min_len(blocks_per_task(points, blocks.len()))
                     .for_each(|(result, block)| *result = work(block));
             } else {
                 for (result, block) in results.iter_mut().zip(blocks) {

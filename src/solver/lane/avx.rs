@@ -159,6 +159,47 @@ impl Lane for Avx {
         turned
     }
     #[inline(always)]
+    unsafe fn load_some(from: *const f64, count: usize) -> Self {
+        // SAFETY: module header
+        Self(unsafe {
+            let places = _mm256_set_epi64x(3, 2, 1, 0);
+            let there = _mm256_cmpgt_epi64(_mm256_set1_epi64x(count as i64), places);
+            _mm256_maskload_pd(from, there)
+        })
+    }
+    #[inline(always)]
+    unsafe fn load_pairs(from: [*const f64; 4]) -> [Self; 2] {
+        // SAFETY: module header
+        unsafe {
+            let even = _mm256_set_m128d(_mm_load_pd(from[2]), _mm_load_pd(from[0]));
+            let odd = _mm256_set_m128d(_mm_load_pd(from[3]), _mm_load_pd(from[1]));
+            [
+                Self(_mm256_unpacklo_pd(even, odd)),
+                Self(_mm256_unpackhi_pd(even, odd)),
+            ]
+        }
+    }
+    #[inline(always)]
+    unsafe fn store_pairs(pairs: [Self; 2], to: [*mut f64; 4]) {
+        // SAFETY: module header
+        unsafe {
+            let pairs = pair_up(pairs);
+            for q in 0..4 {
+                _mm_store_pd(to[q], pairs[q]);
+            }
+        }
+    }
+    #[inline(always)]
+    unsafe fn add_pairs(pairs: [Self; 2], to: [*mut f64; 4]) {
+        // SAFETY: module header
+        unsafe {
+            let pairs = pair_up(pairs);
+            for q in 0..4 {
+                _mm_store_pd(to[q], _mm_add_pd(_mm_load_pd(to[q]), pairs[q]));
+            }
+        }
+    }
+    #[inline(always)]
     unsafe fn load_symmetric<const D: usize>(from: *const f64) -> [Self; D] {
         let mut columns = [Self::splat(0.0); D];
         // SAFETY: module header
@@ -179,5 +220,21 @@ impl Lane for Avx {
             }
         }
         columns
+    }
+}
+
+/// The two numbers of each of four pairs, side by side.
+#[inline(always)]
+fn pair_up([first, second]: [Avx; 2]) -> [__m128d; 4] {
+    // SAFETY: module header
+    unsafe {
+        let even = _mm256_unpacklo_pd(first.0, second.0);
+        let odd = _mm256_unpackhi_pd(first.0, second.0);
+        [
+            _mm256_castpd256_pd128(even),
+            _mm256_castpd256_pd128(odd),
+            _mm256_extractf128_pd::<1>(even),
+            _mm256_extractf128_pd::<1>(odd),
+        ]
     }
 }

@@ -370,8 +370,9 @@ impl EveryPass {
                         )
                     };
                     if rate {
+                        let hoops_here = if kind.axisymmetric { rows_here } else { 0 };
                         // SAFETY: just gathered
-                        let (set, hoop) = unsafe { rates.of(rows_here, rows_here) };
+                        let (set, hoop) = unsafe { rates.of(rows_here, hoops_here) };
                         gradients.extend_from_slice(set);
                         hoops.extend_from_slice(hoop);
                     }

@@ -3,6 +3,7 @@
 use crate::math::{Matrix, Vector, packed_len};
 use crate::solver::lane::Lane;
 use crate::state::Particles;
+use std::mem::MaybeUninit;
 
 /// How many points before their turn memory is asked for them.
 const AHEAD: usize = 16;
@@ -134,15 +135,52 @@ impl<const D: usize> Columns<D> {
     #[inline(always)]
     pub(super) unsafe fn masses<L: Lane>(&self, first: usize, count: usize) -> L {
         // SAFETY: the rows exist
-        unsafe {
-            if count == 4 {
-                let [masses] = L::load_points::<1>(self.mass.add(first));
-                return masses;
-            }
-            let mut masses = [0.0; 4];
-            std::ptr::copy_nonoverlapping(self.mass.add(first), masses.as_mut_ptr(), count);
-            L::new(masses)
-        }
+        unsafe { numbers::<L>(self.mass.add(first), count) }
+    }
+
+    /// In 1D the stresses that forces follow from, zero for points that there are not.
+    ///
+    /// # Safety
+    /// As for [`Self::positions`].
+    #[inline(always)]
+    pub(super) unsafe fn line_stresses<L: Lane>(&self, first: usize, count: usize) -> L {
+        let stress = if self.total {
+            self.first_piola.cast_const().cast::<f64>()
+        } else {
+            self.stress.cast_const()
+        };
+        // SAFETY: the rows exist, a number each in 1D
+        unsafe { numbers::<L>(stress.add(first), count) }
+    }
+
+    /// Initial volumes, zero for points that there are not.
+    ///
+    /// # Safety
+    /// As for [`Self::positions`].
+    #[inline(always)]
+    pub(super) unsafe fn volumes<L: Lane>(&self, first: usize, count: usize) -> L {
+        // SAFETY: the rows exist
+        unsafe { numbers::<L>(self.volume.add(first), count) }
+    }
+
+    /// In 1D the affine fields, zero for points that there are not.
+    ///
+    /// # Safety
+    /// As for [`Self::positions`].
+    #[inline(always)]
+    pub(super) unsafe fn line_affines<L: Lane>(&self, first: usize, count: usize) -> L {
+        // SAFETY: the rows exist, a number each in 1D
+        unsafe { numbers::<L>(self.affine.cast_const().cast::<f64>().add(first), count) }
+    }
+
+    /// Writes affine fields in 1D.
+    ///
+    /// # Safety
+    /// As for [`Self::set_positions`].
+    #[inline(always)]
+    pub(super) unsafe fn set_line_affines<L: Lane>(&self, first: usize, count: usize, c: L) {
+        // SAFETY: the rows exist, a number each in 1D
+        unsafe { set_points::<L, 1>(self.affine.cast::<Vector<1>>().add(first), count, &[c]) }
     }
 
     /// Writes positions of `count` points from row `first` on.
@@ -176,11 +214,11 @@ impl<const D: usize> Columns<D> {
         count: usize,
         rate: L,
         dt: f64,
-        rates: &mut [f64],
+        rates: &mut [MaybeUninit<f64>],
     ) {
         let rate = rate.array();
         for q in 0..count {
-            rates[q] = rate[q];
+            rates[q].write(rate[q]);
             // SAFETY: the rows exist
             unsafe { *self.hoop_stretch.add(first + q) *= 1.0 + dt * rate[q] };
         }
@@ -241,6 +279,19 @@ impl<const D: usize> Columns<D> {
     }
 }
 
+/// `count` numbers, four at most; zero for those that there are not.
+#[inline(always)]
+unsafe fn numbers<L: Lane>(from: *const f64, count: usize) -> L {
+    // SAFETY: the caller vouches for `count` numbers
+    unsafe {
+        if count == 4 {
+            let [numbers] = L::load_points::<1>(from);
+            return numbers;
+        }
+        L::load_some(from, count)
+    }
+}
+
 /// `count` vectors, four at most; the last stands for those that there are not.
 #[inline(always)]
 unsafe fn points<L: Lane, const D: usize>(from: *const Vector<D>, count: usize) -> [L; D] {
@@ -249,12 +300,17 @@ unsafe fn points<L: Lane, const D: usize>(from: *const Vector<D>, count: usize) 
         if count == 4 {
             return L::load_points::<D>(from.cast());
         }
-        let mut four = [*from; 4];
-        for q in 1..4 {
-            four[q] = *from.add(q.min(count - 1));
-        }
-        L::load_points::<D>(four.as_ptr().cast())
+        L::load_points::<D>(filled_up(from, count).as_ptr().cast())
     }
+}
+
+/// Fewer than four vectors, the last of them standing for those that there are not. A function of its own, or whole groups would
+/// pay for finding these addresses.
+#[cold]
+#[inline(never)]
+unsafe fn filled_up<const D: usize>(from: *const Vector<D>, count: usize) -> [Vector<D>; 4] {
+    // SAFETY: the caller vouches for `count` vectors
+    std::array::from_fn(|q| unsafe { *from.add(q.min(count - 1)) })
 }
 
 /// Writes the first `count` of four vectors.
@@ -267,6 +323,13 @@ unsafe fn set_points<L: Lane, const D: usize>(to: *mut Vector<D>, count: usize, 
         }
         let mut four = [Vector::<D>::zeros(); 4];
         L::store_points::<D>(points, four.as_mut_ptr().cast());
-        std::ptr::copy_nonoverlapping(four.as_ptr(), to, count);
+        // no loop, which would become a call
+        *to = four[0];
+        if count > 1 {
+            *to.add(1) = four[1];
+        }
+        if count > 2 {
+            *to.add(2) = four[2];
+        }
     }
 }

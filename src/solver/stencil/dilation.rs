@@ -16,14 +16,14 @@ pub(super) struct Centre<const D: usize, const N: usize>(Group<D, N>);
 impl<const D: usize, const N: usize> Centre<D, N> {
     /// The middle of no cell yet.
     #[inline(always)]
-    pub(super) fn new<B: Basis<N>, T>(pass: &Pass<'_, D, B, T>) -> Self {
+    pub(super) fn new<B: Basis<N>, T>(pass: &Pass<D, B, T>) -> Self {
         let mut group = Group::new();
         if B::DILATION_AT_CENTRE {
             for a in 0..D {
                 let middle = pass.basis[a].functions(Portable([0.5; 4]));
                 for i in 0..N {
                     group.weight[a][i].0 = middle.weight[i].0;
-                    group.slope[a][i].0 = middle.slope[i].0.map(|s| s / pass.geometry.cell_size);
+                    group.slope[a][i].0 = middle.slope[i].0.map(|s| s / pass.cell_size);
                 }
             }
         }

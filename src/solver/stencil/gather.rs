@@ -1,16 +1,15 @@
 //! From the grid to points.
 
 use super::dilation::Centre;
-use super::group::{Group, Needs};
-use super::nodes::{Stencil, gather_linear, gather_value, without_absent};
+use super::group::{Four, Group, Needs};
+use super::line::{gather_four, scatter_four};
+use super::nodes::{Stencil, gather_linear, without_absent};
 use super::scatter::{Scattered, scatter_point};
-use super::{CHUNK, Columns, Pass, Reach, Tile};
+use super::{Columns, Pass, Rates, Reach, Tile};
 use crate::basis::Basis;
 use crate::grid::{Block, Node};
-use crate::material::Rate;
 use crate::solver::lane::Lane;
 use crate::transfer::Transfer;
-use std::mem::MaybeUninit;
 
 /// What the gathering of one block leaves behind.
 #[derive(Clone, Copy, Debug)]
@@ -38,57 +37,6 @@ impl Gathered {
             kinetic: self.kinetic + other.kinetic,
             speed_squared: self.speed_squared.max(other.speed_squared),
             within: self.within && other.within,
-        }
-    }
-}
-
-/// Velocity gradients of up to [`CHUNK`] points, set by the kernel that gathers them.
-pub struct Rates<const D: usize> {
-    /// L, 1/s.
-    gradient: [MaybeUninit<Rate<D>>; CHUNK],
-    /// v_r / r, 1/s; only set in an axisymmetric scene.
-    pub(super) hoop: [f64; CHUNK],
-}
-
-impl<const D: usize> Default for Rates<D> {
-    /// None yet.
-    fn default() -> Self {
-        Self {
-            gradient: [MaybeUninit::uninit(); CHUNK],
-            hoop: [0.0; CHUNK],
-        }
-    }
-}
-
-impl<const D: usize> Rates<D> {
-    /// The gradients of the first `count` points, and the hoop rates of the first `hoops`.
-    ///
-    /// # Safety
-    /// The gradients of that many points were gathered.
-    pub unsafe fn of(&self, count: usize, hoops: usize) -> (&[Rate<D>], &[f64]) {
-        let set = &self.gradient[..count];
-        // SAFETY: MaybeUninit<Rate> has the layout of Rate, and the caller knows that these are set
-        let gradients = unsafe { &*(set as *const [MaybeUninit<Rate<D>>] as *const [Rate<D>]) };
-        (gradients, &self.hoop[..hoops])
-    }
-
-    /// The gradients of the first `count` points.
-    ///
-    /// # Safety
-    /// They were gathered.
-    pub unsafe fn of_mut(&mut self, count: usize) -> &mut [Rate<D>] {
-        let set = &mut self.gradient[..count];
-        // SAFETY: as in `of`
-        unsafe { &mut *(set as *mut [MaybeUninit<Rate<D>>] as *mut [Rate<D>]) }
-    }
-
-    /// Sets the columns of one point's gradient.
-    #[inline(always)]
-    pub(super) fn set<L: Lane>(&mut self, point: usize, columns: &[L; D]) {
-        let gradient = self.gradient[point].as_mut_ptr().cast::<f64>();
-        for a in 0..D {
-            // SAFETY: column a of a gradient is four numbers, aligned to 32 bytes
-            unsafe { columns[a].store(gradient.add(4 * a)) };
         }
     }
 }
@@ -151,7 +99,7 @@ impl Wanted {
     };
 }
 
-/// Brings the grid to the given rows (at most [`CHUNK`]) of a block.
+/// Brings the grid to the given rows (at most [`CHUNK`](super::CHUNK)) of a block.
 ///
 /// # Safety
 /// See the module header; `sources` are arrays of the grid with all of the tile's nodes (those that the pass does not use may
@@ -159,7 +107,7 @@ impl Wanted {
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    pass: &Pass<'_, D, B, T>,
+    pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     tile: &Tile<D>,
     reach: &Reach<D>,
@@ -211,7 +159,7 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
         if what.rate && D == 2 && columns.axisymmetric {
             let rate = offered.radial / position[0];
             // SAFETY: as above
-            unsafe { columns.stretch_hoops(first, count, rate, pass.dt, &mut rates.hoop[at..]) };
+            unsafe { columns.stretch_hoops(first, count, rate, pass.dt, rates.hoops_from(at)) };
         }
         let mut moving = offered.new;
         if what.velocity {
@@ -226,7 +174,7 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
             let mut x = position;
             for a in 0..D {
                 position[a] = dt.mul_add(moving[a], position[a]);
-                x[a] = (position[a] - pass.geometry.min[a]) * (1.0 / pass.geometry.cell_size);
+                x[a] = (position[a] - pass.min[a]) * pass.inverse_size;
             }
             // SAFETY: as above
             unsafe { columns.set_positions(first, count, &position) };
@@ -246,7 +194,7 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
 /// As for [`gather`] and [`scatter`](super::scatter); `second` is none of the sources.
 #[inline(always)]
 pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    pass: &Pass<'_, D, B, T>,
+    pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     block: &Block<D>,
     edge: i32,
@@ -274,6 +222,13 @@ pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: 
                 pass, columns, &group, &centre, &tile, four, velocities, sources, None,
             );
             sums.take(pass, columns, four, &offered);
+            if D == 1 {
+                let momenta = Scattered::MOMENTUM;
+                scatter_four::<L, D, N, B, T>(
+                    pass, columns, &group, &tile, four, momenta, second, second,
+                );
+                continue;
+            }
             for q in 0..count {
                 let s = Stencil {
                     group: &group,
@@ -307,9 +262,9 @@ fn all_finite<L: Lane, const D: usize>(position: &[L; D]) -> bool {
 
 /// Rows of up to four points, one after the other.
 #[derive(Clone, Copy)]
-struct FourRows {
-    first: usize,
-    count: usize,
+pub(super) struct FourRows {
+    pub first: usize,
+    pub count: usize,
 }
 
 /// Velocities that the grid offers to four points, m/s.
@@ -326,7 +281,7 @@ struct Offered<L, const D: usize> {
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    pass: &Pass<'_, D, B, T>,
+    pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     group: &Group<D, N>,
     centre: &Centre<D, N>,
@@ -351,18 +306,16 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
         &group.affine
     };
     let alike = T::MOVING_LEAST_SQUARES || T::TAYLOR;
-    for q in 0..rows.count {
+    // in 1D all four are gathered at once
+    let turns = if D == 1 { 1 } else { rows.count };
+    for q in 0..turns {
         let s = Stencil { group, tile, q };
         // SAFETY: as the caller says
         unsafe {
-            let affine = columns.affine.wrapping_add(rows.first + q).cast::<f64>();
             if what.rate && what.same {
                 if what.velocity && T::AFFINE && !alike {
-                    let (value, [mut gradient, mut columns_of_c]) =
-                        gather_linear::<L, D, N, 2>(sources.main, &s, [slope, own]);
-                    if B::SLOPES_JUMP {
-                        without_absent(value, &mut gradient);
-                    }
+                    let (value, [gradient, columns_of_c]) =
+                        gathered::<L, D, N, B, 2>(sources.main, &s, [slope, own]);
                     book::<L, D, N, B>(
                         &mut gradients,
                         columns,
@@ -373,17 +326,10 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
                         sources.main,
                         gradient,
                     );
-                    if B::SLOPES_JUMP {
-                        without_absent(value, &mut columns_of_c);
-                    }
-                    L::store_matrix::<D>(&columns_of_c, affine);
+                    set_affine(columns, rows, q, &columns_of_c);
                     new[q] = value;
                 } else {
-                    let (value, [mut gradient]) =
-                        gather_linear::<L, D, N, 1>(sources.main, &s, [slope]);
-                    if B::SLOPES_JUMP {
-                        without_absent(value, &mut gradient);
-                    }
+                    let (value, [gradient]) = gathered::<L, D, N, B, 1>(sources.main, &s, [slope]);
                     book::<L, D, N, B>(
                         &mut gradients,
                         columns,
@@ -395,18 +341,15 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
                         gradient,
                     );
                     if what.velocity && T::AFFINE {
-                        L::store_matrix::<D>(&gradient, affine);
+                        set_affine(columns, rows, q, &gradient);
                     }
                     new[q] = value;
                 }
                 straining[q] = new[q];
             } else {
                 if what.rate {
-                    let (value, [mut gradient]) =
-                        gather_linear::<L, D, N, 1>(sources.second, &s, [slope]);
-                    if B::SLOPES_JUMP {
-                        without_absent(value, &mut gradient);
-                    }
+                    let (value, [gradient]) =
+                        gathered::<L, D, N, B, 1>(sources.second, &s, [slope]);
                     book::<L, D, N, B>(
                         &mut gradients,
                         columns,
@@ -420,27 +363,71 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
                     straining[q] = value;
                 }
                 if what.velocity && T::AFFINE {
-                    let (value, [mut columns_of_c]) =
-                        gather_linear::<L, D, N, 1>(sources.main, &s, [own]);
-                    if B::SLOPES_JUMP {
-                        without_absent(value, &mut columns_of_c);
-                    }
-                    L::store_matrix::<D>(&columns_of_c, affine);
+                    let (value, [columns_of_c]) =
+                        gathered::<L, D, N, B, 1>(sources.main, &s, [own]);
+                    set_affine(columns, rows, q, &columns_of_c);
                     new[q] = value;
                 } else if (what.position && T::CHANGE) || (what.velocity && (blend || !T::CHANGE)) {
-                    new[q] = gather_value::<L, D, N>(sources.main, &s);
+                    new[q] = gathered::<L, D, N, B, 0>(sources.main, &s, []).0;
                 }
             }
             if what.velocity && T::CHANGE {
-                change[q] = gather_value::<L, D, N>(sources.change, &s);
+                change[q] = gathered::<L, D, N, B, 0>(sources.change, &s, []).0;
             }
         }
+    }
+    if D == 1 {
+        return Offered {
+            new: [new[0]; D],
+            change: [change[0]; D],
+            radial: zero,
+        };
     }
     let [radial] = L::turn::<1>(&straining);
     Offered {
         new: L::turn::<D>(&new),
         change: L::turn::<D>(&change),
         radial,
+    }
+}
+
+/// [`gather_linear`] for point `s.q`, or [`gather_four`]; gradients without what nodes without mass would add to them.
+#[inline(always)]
+unsafe fn gathered<L: Lane, const D: usize, const N: usize, B: Basis<N>, const M: usize>(
+    nodes: *const Node,
+    s: &Stencil<'_, D, N>,
+    g: [&[[Four; N]; D]; M],
+) -> (L, [[L; D]; M]) {
+    // SAFETY: as the caller says
+    unsafe {
+        if D == 1 {
+            return gather_four::<L, D, N, M>(nodes, s.group, s.tile, g, B::SLOPES_JUMP);
+        }
+        let (value, mut gradients) = gather_linear::<L, D, N, M>(nodes, s, g);
+        if B::SLOPES_JUMP {
+            for m in 0..M {
+                without_absent(value, &mut gradients[m]);
+            }
+        }
+        (value, gradients)
+    }
+}
+
+/// Gives point `q`, in 1D all four, its affine field.
+#[inline(always)]
+unsafe fn set_affine<L: Lane, const D: usize>(
+    columns: &Columns<D>,
+    rows: FourRows,
+    q: usize,
+    field: &[L; D],
+) {
+    // SAFETY: the caller vouches for these rows
+    unsafe {
+        if D == 1 {
+            columns.set_line_affines(rows.first, rows.count, field[0]);
+        } else {
+            L::store_matrix::<D>(field, columns.affine.add(rows.first + q).cast());
+        }
     }
 }
 
@@ -458,6 +445,10 @@ unsafe fn book<L: Lane, const D: usize, const N: usize, B: Basis<N>>(
     mut gradient: [L; D],
 ) {
     if let Some((rates, at)) = gradients {
+        if D == 1 {
+            // all four; a cell has one gradient anyway
+            return rates.set_line(*at, gradient[0]);
+        }
         if B::DILATION_AT_CENTRE {
             // SAFETY: as the caller says
             unsafe { centre.dilate(columns, tile, first + q, q, velocities, &mut gradient) };
@@ -491,7 +482,7 @@ impl<L: Lane> GatheredLanes<L> {
     #[inline(always)]
     unsafe fn take<const D: usize, B, T: Transfer>(
         &mut self,
-        pass: &Pass<'_, D, B, T>,
+        pass: &Pass<D, B, T>,
         columns: &Columns<D>,
         rows: FourRows,
         offered: &Offered<L, D>,

@@ -58,18 +58,18 @@ impl<const D: usize, const N: usize> Group<D, N> {
     #[inline(always)]
     pub(super) fn set<L: Lane, B: Basis<N>, T: Transfer>(
         &mut self,
-        pass: &Pass<'_, D, B, T>,
+        pass: &Pass<D, B, T>,
         tile: &Tile<D>,
         position: &[L; D],
         needs: Needs,
     ) {
-        let inverse = L::splat(1.0 / pass.geometry.cell_size);
+        let inverse = L::splat(pass.inverse_size);
         let mut row = L::splat(0.0);
         let mut node = L::splat(0.0);
         for a in 0..D {
             let basis = &pass.basis[a];
-            let cells = pass.geometry.cells[a];
-            let x = (position[a] - L::splat(pass.geometry.min[a])) * inverse;
+            let cells = pass.cells[a];
+            let x = (position[a] - L::splat(pass.min[a])) * inverse;
             let shifted = x + L::splat(basis.shift());
             let first = shifted
                 .floor()
@@ -77,9 +77,10 @@ impl<const D: usize, const N: usize> Group<D, N> {
             let (low, high) = basis.alike(cells);
             if tile.alike(a, low, high) || first.all_within(f64::from(low), f64::from(high)) {
                 let functions = basis.functions(shifted - first);
-                self.set_axis::<L, B>(a, &functions, pass.geometry.cell_size, needs);
+                let sizes = (pass.cell_size, pass.inverse_size);
+                self.set_axis::<L, B>(a, &functions, sizes, needs);
             } else {
-                self.set_one_by_one(a, basis, x.array(), cells, pass.geometry.cell_size, needs);
+                self.set_one_by_one(a, basis, x.array(), cells, pass.cell_size, needs);
             }
             let local = tile.local(a, first);
             if a + 1 == D {
@@ -97,14 +98,14 @@ impl<const D: usize, const N: usize> Group<D, N> {
         &mut self,
         a: usize,
         functions: &Functions<L, N>,
-        cell_size: f64,
+        (cell_size, inverse_size): (f64, f64),
         needs: Needs,
     ) {
         for i in 0..N {
             self.weight[a][i].set(functions.weight[i]);
         }
         if needs.slope || (needs.affine && B::AFFINE_IS_SLOPE) {
-            let inverse = L::splat(1.0 / cell_size);
+            let inverse = L::splat(inverse_size);
             for i in 0..N {
                 let slope = functions.slope[i] * inverse;
                 if needs.slope {

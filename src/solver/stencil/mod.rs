@@ -15,29 +15,62 @@ mod cpdi;
 mod dilation;
 mod gather;
 mod group;
+mod line;
 mod nodes;
+mod rates;
 mod scatter;
 mod tile;
 
 pub use columns::Columns;
 pub use cpdi::Domains;
-pub use gather::{Gathered, Rates, Sources, Wanted, exchange, gather};
+pub use gather::{Gathered, Sources, Wanted, exchange, gather};
+pub use rates::Rates;
 pub use scatter::{Scattered, scatter, scatter_forces};
 pub use tile::{Reach, Tile};
 
 use crate::grid::Geometry;
+use crate::math::Vector;
 
 /// Points that are gathered together before their law is asked, so that their velocity gradients stay in the first cache.
 pub const CHUNK: usize = 64;
 
 /// What all points of a body have in common in one pass over them.
-pub struct Pass<'a, const D: usize, B, T> {
-    /// The grid.
-    pub geometry: &'a Geometry<D>,
+///
+/// Numbers by value: behind a reference they would be read again, and divided by, after every write to a point.
+pub struct Pass<const D: usize, B, T> {
+    /// Lower corner of the grid, m.
+    pub min: [f64; D],
+    /// Edge of a cell, m.
+    pub cell_size: f64,
+    /// One over that, 1/m.
+    pub inverse_size: f64,
+    /// Cells along each axis.
+    pub cells: [i32; D],
     /// The basis along each axis.
     pub basis: [B; D],
     /// The transfer.
     pub transfer: T,
     /// Δt, s.
     pub dt: f64,
+}
+
+impl<const D: usize, B, T> Pass<D, B, T> {
+    /// A pass over a grid of this geometry.
+    pub fn new(geometry: &Geometry<D>, basis: [B; D], transfer: T, dt: f64) -> Self {
+        Self {
+            min: geometry.min.into(),
+            cell_size: geometry.cell_size,
+            inverse_size: 1.0 / geometry.cell_size,
+            cells: geometry.cells,
+            basis,
+            transfer,
+            dt,
+        }
+    }
+
+    /// A place, m, in cells from the lower corner of the grid.
+    #[inline(always)]
+    fn in_cells(&self, place: &Vector<D>) -> [f64; D] {
+        std::array::from_fn(|a| (place[a] - self.min[a]) * self.inverse_size)
+    }
 }

@@ -182,19 +182,10 @@ unsafe fn add_both<L: Lane>(row: *mut f64, k: usize, a: L, b: L, c: L, d: L) {
     }
 }
 
-/// Σ_I N_I node_I.
-#[inline(always)]
-pub(super) unsafe fn gather_value<L: Lane, const D: usize, const N: usize>(
-    nodes: *const Node,
-    s: &Stencil<'_, D, N>,
-) -> L {
-    // SAFETY: as the caller says
-    unsafe { gather_linear::<L, D, N, 0>(nodes, s, []).0 }
-}
-
 /// For nodes that hold a velocity and, as number `D`, 1 (0 where no mass came):
 /// Σ_I N_I node_I, and for each set of functions `g[m]` and each axis a the same with `g[m]` in place of N along that axis: with
-/// the slopes Σ_I ∂_a N_I node_I. All sets together read the nodes once.
+/// the slopes Σ_I ∂_a N_I node_I. All sets together read the nodes once. In 2D and 3D; in 1D
+/// there is [`gather_four`](super::line::gather_four).
 #[inline(always)]
 pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, const M: usize>(
     nodes: *const Node,
@@ -211,17 +202,9 @@ pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, cons
     let mut gradient = [[zero; D]; M];
     let mut sum = zero;
     match D {
-        1 => {
-            // SAFETY: the tile addresses stored nodes only (module header)
-            let (value, change) = unsafe { gather_row(s.row(nodes, 0, 0), &last, &slant) };
-            sum = value;
-            for m in 0..M {
-                gradient[m][0] = change[m];
-            }
-        }
         2 => {
             for i in 0..N {
-                // SAFETY: as above
+                // SAFETY: the tile addresses stored nodes only (module header)
                 let (value, change) = unsafe { gather_row(s.row(nodes, i, 0), &last, &slant) };
                 let wi: L = s.weight(0, i);
                 sum = wi.mul_add(value, sum);

@@ -1,7 +1,9 @@
 //! From points to the grid.
 
 use super::dilation::Centre;
+use super::gather::FourRows;
 use super::group::{Group, Needs};
+use super::line::scatter_four;
 use super::nodes::{Gift, Stencil, scatter_gift};
 use super::{Columns, Pass, Tile};
 use crate::basis::Basis;
@@ -45,7 +47,7 @@ impl Scattered {
 /// transfer does not use it), and no other thread adds to nodes of this tile meanwhile.
 #[inline(always)]
 pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    pass: &Pass<'_, D, B, T>,
+    pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     block: &Block<D>,
     edge: i32,
@@ -69,6 +71,14 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
         group.set::<L, B, T>(pass, &tile, &place, needs);
         if B::DILATION_AT_CENTRE {
             centre.set(&group);
+        }
+        if D == 1 {
+            let rows = FourRows { first, count };
+            // SAFETY: as the caller says, and as above
+            unsafe {
+                scatter_four::<L, D, N, B, T>(pass, columns, &group, &tile, rows, what, main, force)
+            };
+            continue;
         }
         for q in 0..count {
             let s = Stencil {
@@ -102,7 +112,7 @@ pub(super) unsafe fn scatter_point<
     B: Basis<N>,
     T: Transfer,
 >(
-    pass: &Pass<'_, D, B, T>,
+    pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     s: &Stencil<'_, D, N>,
     centre: &Centre<D, N>,
@@ -251,7 +261,7 @@ fn first_numbers<const D: usize>(x: f64) -> [f64; 4] {
 /// As for [`scatter`].
 #[inline(always)]
 pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    pass: &Pass<'_, D, B, T>,
+    pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     block: &Block<D>,
     edge: i32,

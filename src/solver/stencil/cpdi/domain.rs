@@ -73,7 +73,7 @@ impl<const D: usize> Domain<D> {
     /// The row exists, and no other thread uses it meanwhile.
     #[inline(always)]
     pub(super) unsafe fn of<T>(
-        pass: &Pass<'_, D, Cpdi, T>,
+        pass: &Pass<D, Cpdi, T>,
         columns: &Columns<D>,
         tile: &Tile<D>,
         p: usize,
@@ -84,8 +84,7 @@ impl<const D: usize> Domain<D> {
             (&*columns.place.add(p), f)
         };
         let edges = half_edges(&pass.basis, deformed);
-        let geometry = pass.geometry;
-        let x = geometry.in_cells(place, 1.0 / geometry.cell_size);
+        let x = pass.in_cells(place);
         let nowhere = Corner {
             row: 0,
             node: 0,
@@ -93,7 +92,7 @@ impl<const D: usize> Domain<D> {
         };
         let mut corners = [nowhere; 8];
         for a in 0..D {
-            let first = first(x[a], geometry.cells[a]);
+            let first = first(x[a], pass.cells[a]);
             let start = tile.local::<f64>(a, first);
             for (c, corner) in corners.iter_mut().enumerate().take(Self::CORNERS) {
                 // in cells from the first node of the stencil

@@ -115,7 +115,7 @@ unsafe fn take<L: Lane, const D: usize>(
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 pub(super) unsafe fn gather<L: Lane, const D: usize, T: Transfer>(
-    pass: &Pass<'_, D, Cpdi, T>,
+    pass: &Pass<D, Cpdi, T>,
     columns: &Columns<D>,
     tile: &Tile<D>,
     reach: &Reach<D>,
@@ -125,8 +125,7 @@ pub(super) unsafe fn gather<L: Lane, const D: usize, T: Transfer>(
     rates: &mut Rates<D>,
 ) -> Gathered {
     let mut sums = Gathered::NONE;
-    let geometry = pass.geometry;
-    let per_metre = L::splat(1.0 / geometry.cell_size);
+    let per_metre = L::splat(pass.inverse_size);
     let deforms = what.position && columns.convected;
     for p in rows.clone() {
         let at = p - rows.start;
@@ -150,7 +149,7 @@ pub(super) unsafe fn gather<L: Lane, const D: usize, T: Transfer>(
                     );
                 }
                 if deforms {
-                    deform(columns, &domain, p, &taken, pass.dt / geometry.cell_size);
+                    deform(columns, &domain, p, &taken, pass.dt * pass.inverse_size);
                 }
                 strained = Some(taken);
             }
@@ -171,7 +170,7 @@ pub(super) unsafe fn gather<L: Lane, const D: usize, T: Transfer>(
                 if D == 2 && columns.axisymmetric {
                     let radius = (&*columns.position.add(p))[0];
                     let rate = L::splat(taken.value.lane(0) / radius);
-                    columns.stretch_hoops(p, 1, rate, pass.dt, &mut rates.hoop[at..]);
+                    columns.stretch_hoops(p, 1, rate, pass.dt, rates.hoops_from(at));
                 }
             }
             if what.position {
@@ -186,7 +185,7 @@ pub(super) unsafe fn gather<L: Lane, const D: usize, T: Transfer>(
                 sums.within &= if columns.total {
                     position.iter().all(|x| x.is_finite())
                 } else {
-                    reach.holds(&geometry.in_cells(position, 1.0 / geometry.cell_size))
+                    reach.holds(&pass.in_cells(position))
                 };
             }
         }
@@ -201,7 +200,7 @@ pub(super) unsafe fn gather<L: Lane, const D: usize, T: Transfer>(
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 unsafe fn give_velocity<L: Lane, const D: usize, T: Transfer>(
-    pass: &Pass<'_, D, Cpdi, T>,
+    pass: &Pass<D, Cpdi, T>,
     columns: &Columns<D>,
     tile: &Tile<D>,
     domain: &Domain<D>,
@@ -235,7 +234,7 @@ unsafe fn give_velocity<L: Lane, const D: usize, T: Transfer>(
                 taken.fit(domain)
             };
             for a in 0..D {
-                field[a] = field[a] * (1.0 / pass.geometry.cell_size);
+                field[a] = field[a] * (1.0 / pass.cell_size);
             }
             L::store_matrix::<D>(&field, columns.affine.add(p).cast());
         }
@@ -271,7 +270,7 @@ unsafe fn deform<L: Lane, const D: usize>(
 /// As there.
 #[inline(always)]
 pub(super) unsafe fn exchange<L: Lane, const D: usize, T: Transfer>(
-    pass: &Pass<'_, D, Cpdi, T>,
+    pass: &Pass<D, Cpdi, T>,
     columns: &Columns<D>,
     block: &Block<D>,
     edge: i32,

@@ -33,13 +33,9 @@ pub struct Domains<const D: usize, T> {
 }
 
 impl<const D: usize, T: Transfer> Domains<D, T> {
-    fn pass<'a>(&self, context: &Context<'a, D>) -> Pass<'a, D, Cpdi, T> {
-        Pass {
-            geometry: context.geometry,
-            basis: self.basis[context.body],
-            transfer: self.transfer,
-            dt: context.dt,
-        }
+    fn pass(&self, context: &Context<'_, D>) -> Pass<D, Cpdi, T> {
+        let basis = self.basis[context.body];
+        Pass::new(context.geometry, basis, self.transfer, context.dt)
     }
 }
 
@@ -184,7 +180,7 @@ mod wide {
 
     #[target_feature(enable = "avx2,fma")]
     pub unsafe fn scatter<const D: usize, T: Transfer>(
-        pass: &Pass<'_, D, Cpdi, T>,
+        pass: &Pass<D, Cpdi, T>,
         columns: &Columns<D>,
         block: &Block<D>,
         edge: i32,
@@ -198,7 +194,7 @@ mod wide {
 
     #[target_feature(enable = "avx2,fma")]
     pub unsafe fn exchange<const D: usize, T: Transfer>(
-        pass: &Pass<'_, D, Cpdi, T>,
+        pass: &Pass<D, Cpdi, T>,
         columns: &Columns<D>,
         block: &Block<D>,
         edge: i32,
@@ -212,7 +208,7 @@ mod wide {
     #[target_feature(enable = "avx2,fma")]
     #[allow(clippy::too_many_arguments)]
     pub unsafe fn gather<const D: usize, T: Transfer>(
-        pass: &Pass<'_, D, Cpdi, T>,
+        pass: &Pass<D, Cpdi, T>,
         columns: &Columns<D>,
         tile: &Tile<D>,
         reach: &Reach<D>,

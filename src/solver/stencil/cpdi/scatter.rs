@@ -47,7 +47,7 @@ impl<L: Lane, const D: usize> Gift<L, D> {
 /// As there.
 #[inline(always)]
 pub(super) unsafe fn scatter<L: Lane, const D: usize, T: Transfer>(
-    pass: &Pass<'_, D, Cpdi, T>,
+    pass: &Pass<D, Cpdi, T>,
     columns: &Columns<D>,
     block: &Block<D>,
     edge: i32,
@@ -75,7 +75,7 @@ pub(super) unsafe fn scatter<L: Lane, const D: usize, T: Transfer>(
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 pub(super) unsafe fn scatter_point<L: Lane, const D: usize, T: Transfer>(
-    pass: &Pass<'_, D, Cpdi, T>,
+    pass: &Pass<D, Cpdi, T>,
     columns: &Columns<D>,
     tile: &Tile<D>,
     domain: &Domain<D>,
@@ -84,7 +84,7 @@ pub(super) unsafe fn scatter_point<L: Lane, const D: usize, T: Transfer>(
     main: *mut Node,
     force: *mut Node,
 ) {
-    let h = pass.geometry.cell_size;
+    let h = pass.cell_size;
     let mut gift = Gift::<L, D>::nothing();
     if what.momentum {
         // SAFETY: row p belongs to this block alone
@@ -140,13 +140,13 @@ pub(super) unsafe fn scatter_point<L: Lane, const D: usize, T: Transfer>(
 /// The row exists, and no other thread uses it meanwhile.
 #[inline(always)]
 unsafe fn pull<L: Lane, const D: usize, T: Transfer>(
-    pass: &Pass<'_, D, Cpdi, T>,
+    pass: &Pass<D, Cpdi, T>,
     columns: &Columns<D>,
     domain: &Domain<D>,
     p: usize,
     gift: &mut Gift<L, D>,
 ) {
-    let inverse_h = 1.0 / pass.geometry.cell_size;
+    let inverse_h = 1.0 / pass.cell_size;
     // SAFETY: as the caller says
     let (volume, stress) = unsafe {
         let stress = if columns.total {
@@ -249,7 +249,7 @@ unsafe fn give<L: Lane, const D: usize>(
 /// # Safety
 /// As there.
 pub(super) unsafe fn scatter_forces<L: Lane, const D: usize, T>(
-    pass: &Pass<'_, D, Cpdi, T>,
+    pass: &Pass<D, Cpdi, T>,
     columns: &Columns<D>,
     block: &Block<D>,
     edge: i32,
@@ -263,7 +263,7 @@ pub(super) unsafe fn scatter_forces<L: Lane, const D: usize, T>(
         // SAFETY: a vector has D numbers
         gift.value = unsafe { L::load_point::<D>(force.as_ptr()) };
         for a in 0..D {
-            let half = pass.basis[a].half_width() * pass.geometry.cell_size;
+            let half = pass.basis[a].half_width() * pass.cell_size;
             gift.slant[a] = gift.value * L::splat(offset[a] / half);
         }
         // SAFETY: row p belongs to this block alone; the tile holds every node of the stencil

@@ -1,0 +1,75 @@
+//! Velocity gradients on their way from the grid to a law.
+
+use super::CHUNK;
+use crate::material::Rate;
+use crate::solver::lane::Lane;
+use std::mem::MaybeUninit;
+
+/// Velocity gradients of up to [`CHUNK`] points, set by the kernel that gathers them.
+pub struct Rates<const D: usize> {
+    /// L, 1/s.
+    gradient: [MaybeUninit<Rate<D>>; CHUNK],
+    /// v_r / r, 1/s; only set in an axisymmetric scene.
+    hoop: [MaybeUninit<f64>; CHUNK],
+}
+
+impl<const D: usize> Default for Rates<D> {
+    /// None yet.
+    fn default() -> Self {
+        Self {
+            gradient: [MaybeUninit::uninit(); CHUNK],
+            hoop: [MaybeUninit::uninit(); CHUNK],
+        }
+    }
+}
+
+impl<const D: usize> Rates<D> {
+    /// The gradients of the first `count` points, and the hoop rates of the first `hoops`.
+    ///
+    /// # Safety
+    /// The gradients of that many points were gathered, and the hoop rates in an axisymmetric scene.
+    pub unsafe fn of(&self, count: usize, hoops: usize) -> (&[Rate<D>], &[f64]) {
+        let gradients: *const [MaybeUninit<Rate<D>>] = &self.gradient[..count];
+        let rates: *const [MaybeUninit<f64>] = &self.hoop[..hoops];
+        // SAFETY: MaybeUninit<T> has the layout of T, and the caller knows that these are set
+        unsafe { (&*(gradients as *const [Rate<D>]), &*(rates as *const [f64])) }
+    }
+
+    /// The gradients of the first `count` points.
+    ///
+    /// # Safety
+    /// They were gathered.
+    pub unsafe fn of_mut(&mut self, count: usize) -> &mut [Rate<D>] {
+        let set: *mut [MaybeUninit<Rate<D>>] = &mut self.gradient[..count];
+        // SAFETY: as in `of`
+        unsafe { &mut *(set as *mut [Rate<D>]) }
+    }
+
+    /// Sets the gradients of four points on a line.
+    #[inline(always)]
+    pub(super) fn set_line<L: Lane>(&mut self, point: usize, gradients: L) {
+        let four = &mut self.gradient[point..point + 4];
+        let mut to = [four[0].as_mut_ptr().cast::<f64>(); 4];
+        for q in 0..4 {
+            to[q] = four[q].as_mut_ptr().cast();
+        }
+        // SAFETY: a gradient is four numbers, aligned to 32 bytes; all but the first may be anything
+        unsafe { L::store_pairs([gradients, gradients], to) };
+    }
+
+    /// Sets the columns of one point's gradient.
+    #[inline(always)]
+    pub(super) fn set<L: Lane>(&mut self, point: usize, columns: &[L; D]) {
+        let gradient = self.gradient[point].as_mut_ptr().cast::<f64>();
+        for a in 0..D {
+            // SAFETY: column a of a gradient is four numbers, aligned to 32 bytes
+            unsafe { columns[a].store(gradient.add(4 * a)) };
+        }
+    }
+
+    /// The hoop rates of a point and of those after it.
+    #[inline(always)]
+    pub(super) fn hoops_from(&mut self, point: usize) -> &mut [MaybeUninit<f64>] {
+        &mut self.hoop[point..]
+    }
+}
