@@ -48,6 +48,7 @@ failures! {
     drift,
     crossing,
     fracture,
+    cpdi_shear,
     ringing,
     dissipation,
     galilei,
