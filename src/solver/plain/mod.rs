@@ -4,7 +4,7 @@ use super::stencil::{Scattered, Wanted};
 use crate::basis::Basis;
 use crate::grid::Geometry;
 use crate::math::{Matrix, Vector, packed_len, unpack};
-use crate::state::Particles;
+use crate::state::{Masses, Particles};
 
 mod compare;
 mod tiling;
@@ -151,9 +151,10 @@ fn plain_scatter<const D: usize, const N: usize, B: Basis<N>>(
                 if matches!(method, Method::MlsApic) {
                     gradient = known.fitted;
                 }
-                let mut internal = stress * gradient * -p.initial_volume[i];
+                let volume = p.mass.initial_volume(i);
+                let mut internal = stress * gradient * -volume;
                 if let Some(hoop) = p.hoop_stress.get(i) {
-                    internal[0] -= p.initial_volume[i] * hoop * known.weight / p.position[i][0];
+                    internal[0] -= volume * hoop * known.weight / p.position[i][0];
                 }
                 match method {
                     Method::Flip(_) => force.add(&known.node, &internal, 0.0),
