@@ -3,6 +3,7 @@
 use crate::material::{MaterialPoints, Present};
 use crate::math::{Matrix, Vector, packed_len};
 use crate::reorder;
+use std::ops::Index;
 
 /// The columns that every material point of a body has. Columns that a scene does not need stay empty.
 #[derive(Clone, Debug, Default)]
@@ -14,10 +15,8 @@ pub struct Particles<const D: usize> {
     pub reference_position: Vec<Vector<D>>,
     /// v, m/s.
     pub velocity: Vec<Vector<D>>,
-    /// m, kg.
-    pub mass: Vec<f64>,
-    /// V₀, m³ (2D: for a thickness of 1 m, or the full ring of an axisymmetric scene; 1D: for a section of 1 m²).
-    pub initial_volume: Vec<f64>,
+    /// m, kg, and with it V₀.
+    pub mass: Masses,
     /// Kirchhoff stress τ = J σ, Pa, packed: `D (D + 1) / 2` numbers a point.
     pub stress: Vec<f64>,
     /// Deformation gradient F = ∂x/∂X in the modelled directions; empty in the updated frame, unless points have domains that
@@ -101,7 +100,7 @@ impl<const D: usize> Particles<D> {
         }
         let numbers = |column: usize| 8 * column / self.len();
         size_of::<Vector<D>>() * 2
-            + 16
+            + self.mass.bytes_per_point()
             + 4
             + numbers(self.stress.len())
             + size_of::<Matrix<D>>() * usize::from(!self.affine.is_empty())
@@ -122,7 +121,6 @@ impl<const D: usize> Particles<D> {
         self.position.len() == count
             && self.velocity.len() == count
             && self.mass.len() == count
-            && self.initial_volume.len() == count
             && self.stress.len() == packed_len(D) * count
             && self.reference_position.len() == total
             && self.deformation_gradient.len()
@@ -145,7 +143,6 @@ impl<const D: usize> Particles<D> {
             reference_position,
             velocity,
             mass,
-            initial_volume,
             stress,
             deformation_gradient,
             first_piola_stress,
@@ -159,8 +156,7 @@ impl<const D: usize> Particles<D> {
             reorder::permute_in_place(velocity, 1, order, leaders);
         };
         let mut rest = || {
-            reorder::permute_in_place(mass, 1, order, leaders);
-            reorder::permute_in_place(initial_volume, 1, order, leaders);
+            mass.permute(order, leaders);
             reorder::permute_in_place(id, 1, order, leaders);
         };
         let mut stresses = || {
@@ -197,6 +193,80 @@ impl<const D: usize> Particles<D> {
     }
 }
 
+/// Masses m of a body's points, kg, and with them their initial volumes V₀ = m / ρ₀, m³ (2D: for a thickness of 1 m, or the full
+/// ring of an axisymmetric scene; 1D: for a section of 1 m²).
+///
+/// Points that all have the same mass, as they have unless they are rings, share one number.
+#[derive(Clone, Debug, Default)]
+pub struct Masses {
+    /// One number for all points, or one a point.
+    numbers: Vec<f64>,
+    count: usize,
+    density: f64,
+}
+
+impl Masses {
+    /// Masses of `count` points of a body with this initial density, kg/m³, given their initial volumes, m³.
+    pub fn of_volumes(density: f64, count: usize, volume: impl Fn(usize) -> f64) -> Self {
+        let same = (1..count).all(|p| volume(p) == volume(0));
+        let stored = if same { count.min(1) } else { count };
+        Self {
+            numbers: (0..stored).map(|p| density * volume(p)).collect(),
+            count,
+            density,
+        }
+    }
+
+    /// Of how many points.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Whether all points share one number.
+    pub fn are_same(&self) -> bool {
+        self.numbers.len() < self.count
+    }
+
+    /// ρ₀, kg/m³.
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// V₀ of point `p`, m³.
+    pub fn initial_volume(&self, p: usize) -> f64 {
+        self[p] / self.density
+    }
+
+    /// The numbers: one for all points if [they are the same](Self::are_same), else one a point.
+    pub fn numbers(&self) -> &[f64] {
+        &self.numbers
+    }
+
+    /// Memory of one point's mass, bytes.
+    pub fn bytes_per_point(&self) -> usize {
+        if self.are_same() { 0 } else { size_of::<f64>() }
+    }
+
+    fn permute(&mut self, order: &[u32], leaders: &[u32]) {
+        if !self.are_same() {
+            reorder::permute_in_place(&mut self.numbers, 1, order, leaders);
+        }
+    }
+}
+
+impl Index<usize> for Masses {
+    type Output = f64;
+
+    fn index(&self, p: usize) -> &f64 {
+        &self.numbers[if self.are_same() { 0 } else { p }]
+    }
+}
+
 /// One deforming thing.
 pub struct Body<const D: usize> {
     /// Its name in the scenario.
@@ -207,8 +277,6 @@ pub struct Body<const D: usize> {
     pub material: Box<dyn MaterialPoints<D>>,
     /// Distance between neighbouring points at the start, m, one number an axis.
     pub spacing: Vector<D>,
-    /// Initial density, kg/m³.
-    pub density: f64,
 }
 
 impl<const D: usize> Body<D> {
@@ -236,5 +304,30 @@ impl<const D: usize> State<D> {
     /// How many points all bodies have together.
     pub fn point_count(&self) -> usize {
         self.bodies.iter().map(|body| body.particles.len()).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_equal_mass_share_one_number() {
+        let mut same = Masses::of_volumes(4.0, 3, |_| 0.25);
+        assert!(same.are_same() && same.len() == 3 && same.bytes_per_point() == 0);
+        same.permute(&[0, 1, 2], &[0]);
+        for p in 0..3 {
+            assert_eq!((same[p], same.initial_volume(p)), (1.0, 0.25));
+        }
+    }
+
+    #[test]
+    fn rings_keep_their_own_masses_wherever_they_are_sorted() {
+        let mut rings = Masses::of_volumes(2.0, 3, |p| 1.0 + p as f64);
+        assert!(!rings.are_same() && rings.bytes_per_point() == 8);
+        // row 0 goes to place 1, that to 2, that to 0
+        rings.permute(&[0, 1, 2], &[0]);
+        assert_eq!(rings.numbers(), [6.0, 2.0, 4.0]);
+        assert_eq!([0, 1, 2].map(|p| rings.initial_volume(p)), [3.0, 1.0, 2.0]);
     }
 }

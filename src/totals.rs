@@ -70,7 +70,7 @@ impl<const D: usize> Sums<D> {
         for i in part.clone() {
             sums.mass.add(p.mass[i]);
             let ratio = body.material.volume_ratio(i, p.hoop_stretch(i));
-            sums.volume.add(p.initial_volume[i] * ratio);
+            sums.volume.add(p.mass.initial_volume(i) * ratio);
             sums.kinetic
                 .add(0.5 * p.mass[i] * p.velocity[i].norm_squared());
             for a in 0..D {
@@ -79,9 +79,9 @@ impl<const D: usize> Sums<D> {
             }
         }
         let present = present(p, part.clone());
-        let volumes = &p.initial_volume[part.clone()];
+        let volume = |i| p.mass.initial_volume(i);
         sums.elastic
-            .add(body.material.energy(part, &present, volumes));
+            .add(body.material.energy(part, &present, &volume));
         sums
     }
 

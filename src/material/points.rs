@@ -92,8 +92,13 @@ pub trait MaterialPoints<const D: usize>: Send + Sync {
         increments: &Increments<'_, D>,
     );
 
-    /// Elastic energy of the points in `range`, J, given their initial volumes, m³.
-    fn energy(&self, range: Range<usize>, present: &Present<'_>, initial_volumes: &[f64]) -> f64;
+    /// Elastic energy of the points in `range`, J, given what the initial volume of each point is, m³.
+    fn energy(
+        &self,
+        range: Range<usize>,
+        present: &Present<'_>,
+        initial_volume: &dyn Fn(usize) -> f64,
+    ) -> f64;
 
     /// J of point `index`; `hoop_stretch` is 1 unless axisymmetric.
     fn volume_ratio(&self, index: usize, hoop_stretch: f64) -> f64;
@@ -219,10 +224,15 @@ impl<const D: usize, M: Material<D>> MaterialPoints<D> for Points<D, M> {
         super::update::every_group::<f64, D, M>(&self.material, rows);
     }
 
-    fn energy(&self, range: Range<usize>, present: &Present<'_>, initial_volumes: &[f64]) -> f64 {
-        let points = self.present(range, present).zip(initial_volumes);
-        let energies = points.map(|((memory, stress, stretch), volume)| {
-            volume * self.material.energy(&memory, &stress, stretch)
+    fn energy(
+        &self,
+        range: Range<usize>,
+        present: &Present<'_>,
+        initial_volume: &dyn Fn(usize) -> f64,
+    ) -> f64 {
+        let points = range.clone().zip(self.present(range, present));
+        let energies = points.map(|(index, (memory, stress, stretch))| {
+            initial_volume(index) * self.material.energy(&memory, &stress, stretch)
         });
         energies.collect::<Sum>().value()
     }

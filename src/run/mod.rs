@@ -194,7 +194,7 @@ fn frame<const D: usize>(state: &State<D>) -> Frame {
                 body: index,
                 id: p.id[row],
                 mass: p.mass[row],
-                initial_volume: p.initial_volume[row],
+                initial_volume: p.mass.initial_volume(row),
                 volume_ratio: body.material.volume_ratio(row, p.hoop_stretch(row)),
                 ..Point::default()
             };

@@ -213,7 +213,7 @@ impl<const D: usize> Mpm<D> {
                 } else {
                     stiffness
                 };
-                (stiffness / body.density).sqrt()
+                (stiffness / body.particles.mass.density()).sqrt()
             })
             .fold(0.0, |most: f64, speed| {
                 if speed > most || speed.is_nan() {

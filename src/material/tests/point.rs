@@ -93,7 +93,7 @@ impl<const D: usize> Point<D> {
     }
 
     pub(super) fn energy(&self) -> f64 {
-        self.points.energy(0..1, &self.present().0, &[1.0])
+        self.points.energy(0..1, &self.present().0, &|_| 1.0)
     }
 
     pub(super) fn stiffness(&self) -> f64 {

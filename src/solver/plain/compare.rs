@@ -147,8 +147,13 @@ fn points<const D: usize>(
             .chunks_exact(D)
             .map(Vector::from_column_slice)
             .collect(),
-        mass: numbers(count).iter().map(|m| 1.5 + m).collect(),
-        initial_volume: numbers(count).iter().map(|v| 1.5 + v).collect(),
+        // rings differ; otherwise one number for all is what scenes have
+        mass: if !axisymmetric && !total {
+            Masses::of_volumes(1.7, count, |_| 0.9)
+        } else {
+            let volumes = numbers(count);
+            Masses::of_volumes(1.7, count, |p| 1.5 + volumes[p])
+        },
         stress: numbers(packed_len(D) * count),
         affine: if affine {
             matrices

@@ -168,7 +168,7 @@ fn tiling<const D: usize>(f: Matrix<D>, per_axis: usize, cells: i32) {
         position: (0..count).map(place).collect(),
         velocity: vec![Vector::zeros(); count],
         deformation_gradient: vec![f; count],
-        initial_volume: vec![(0..D).map(spacing).product(); count],
+        mass: Masses::of_volumes(1.3, count, |_| (0..D).map(spacing).product()),
         stress: stress[..packed_len(D)].repeat(count),
         ..Particles::default()
     };

@@ -4,7 +4,7 @@ use super::stencil::{Scattered, Wanted};
 use crate::basis::{Axis, Basis};
 use crate::grid::Geometry;
 use crate::math::{Matrix, Vector, packed_len, unpack};
-use crate::state::Particles;
+use crate::state::{Masses, Particles};
 
 mod compare;
 mod domains;
@@ -161,6 +161,7 @@ fn plain_scatter<const D: usize>(
                 if matches!(method, Method::MlsApic) {
                     gradient = known.fitted;
                 }
+                let volume = p.mass.initial_volume(i);
                 let mut internal = stress * gradient;
                 if let Some(middle) = known.middle {
                     // P = P_dev + (P : F / d) F⁻ᵀ; in the updated frame τ with F = I
@@ -168,9 +169,9 @@ fn plain_scatter<const D: usize>(
                     let pressure = inverse * (stress.dot(&f) / D as f64);
                     internal = (stress - pressure) * gradient + pressure * middle;
                 }
-                internal *= -p.initial_volume[i];
+                internal *= -volume;
                 if let Some(hoop) = p.hoop_stress.get(i) {
-                    internal[0] -= p.initial_volume[i] * hoop * known.weight / p.position[i][0];
+                    internal[0] -= volume * hoop * known.weight / p.position[i][0];
                 }
                 match method {
                     Method::Flip(_) => force.add(&known.node, &internal, 0.0),

@@ -25,7 +25,7 @@ impl BasisVisitor for EvenTiling {
         let p = Particles {
             position: reference.iter().map(|x| f * x).collect(),
             reference_position: reference,
-            initial_volume: vec![0.0625; count],
+            mass: Masses::of_volumes(3.0, count, |_| 0.0625),
             first_piola_stress: vec![Matrix::<2>::new(7.0, -2.0, 5.0, 3.0); count],
             velocity: vec![Vector::zeros(); count],
             ..Particles::default()

@@ -17,8 +17,11 @@ pub struct Columns<const D: usize> {
     pub(super) place: *const Vector<D>,
     pub(super) velocity: *mut Vector<D>,
     pub(super) affine: *mut Matrix<D>,
-    pub(super) mass: *const f64,
-    pub(super) volume: *const f64,
+    mass: *const f64,
+    /// All bits if there is a mass for each point, none if they share one: which of them is that of a point.
+    each_mass: usize,
+    /// 1 / ρ₀.
+    pub(super) specific_volume: f64,
     pub(super) stress: *mut f64,
     pub(super) deformation: *mut Matrix<D>,
     pub(super) first_piola: *mut Matrix<D>,
@@ -57,8 +60,13 @@ impl<const D: usize> Columns<D> {
             },
             velocity: particles.velocity.as_mut_ptr(),
             affine: particles.affine.as_mut_ptr(),
-            mass: particles.mass.as_ptr(),
-            volume: particles.initial_volume.as_ptr(),
+            mass: particles.mass.numbers().as_ptr(),
+            each_mass: if particles.mass.are_same() {
+                0
+            } else {
+                usize::MAX
+            },
+            specific_volume: 1.0 / particles.mass.density(),
             stress: particles.stress.as_mut_ptr(),
             deformation: particles.deformation_gradient.as_mut_ptr(),
             first_piola: particles.first_piola_stress.as_mut_ptr(),
@@ -77,12 +85,11 @@ impl<const D: usize> Columns<D> {
         let p = first + AHEAD;
         L::prefetch(self.place.wrapping_add(p).cast(), 4 * D);
         L::prefetch(self.velocity.wrapping_add(p).cast(), 4 * D);
-        L::prefetch(self.mass.wrapping_add(p), 4);
+        L::prefetch(self.mass.wrapping_add(p & self.each_mass), 4);
         if affine {
             L::prefetch(self.affine.wrapping_add(p).cast(), 4 * D * D);
         }
         if stress {
-            L::prefetch(self.volume.wrapping_add(p), 4);
             if self.total {
                 L::prefetch(self.first_piola.wrapping_add(p).cast(), 4 * D * D);
             } else {
@@ -128,6 +135,16 @@ impl<const D: usize> Columns<D> {
         unsafe { points::<L, D>(self.velocity.add(first), count) }
     }
 
+    /// Mass of the point in row `p`.
+    ///
+    /// # Safety
+    /// The row exists.
+    #[inline(always)]
+    pub(super) unsafe fn mass(&self, p: usize) -> f64 {
+        // SAFETY: the row exists, or all share the first
+        unsafe { *self.mass.add(p & self.each_mass) }
+    }
+
     /// Masses, zero for points that there are not.
     ///
     /// # Safety
@@ -135,7 +152,13 @@ impl<const D: usize> Columns<D> {
     #[inline(always)]
     pub(super) unsafe fn masses<L: Lane>(&self, first: usize, count: usize) -> L {
         // SAFETY: the rows exist
-        unsafe { numbers::<L>(self.mass.add(first), count) }
+        unsafe {
+            if self.each_mass != 0 {
+                return numbers::<L>(self.mass.add(first), count);
+            }
+            let mass = *self.mass;
+            L::new(std::array::from_fn(|q| if q < count { mass } else { 0.0 }))
+        }
     }
 
     /// In 1D the stresses that forces follow from, zero for points that there are not.
@@ -151,16 +174,6 @@ impl<const D: usize> Columns<D> {
         };
         // SAFETY: the rows exist, a number each in 1D
         unsafe { numbers::<L>(stress.add(first), count) }
-    }
-
-    /// Initial volumes, zero for points that there are not.
-    ///
-    /// # Safety
-    /// As for [`Self::positions`].
-    #[inline(always)]
-    pub(super) unsafe fn volumes<L: Lane>(&self, first: usize, count: usize) -> L {
-        // SAFETY: the rows exist
-        unsafe { numbers::<L>(self.volume.add(first), count) }
     }
 
     /// In 1D the affine fields, zero for points that there are not.

@@ -125,9 +125,13 @@ pub(super) unsafe fn scatter_four<L: Lane, const D: usize, const N: usize, B, T:
             }
         }
         if what.force {
-            let scale = if T::CHANGE { -1.0 } else { -pass.dt };
-            let volume = columns.volumes::<L>(first, count);
-            pull = columns.line_stresses::<L>(first, count) * (volume * scale);
+            let scale = if T::CHANGE {
+                -columns.specific_volume
+            } else {
+                -columns.specific_volume * pass.dt
+            };
+            let mass = columns.masses::<L>(first, count);
+            pull = columns.line_stresses::<L>(first, count) * (mass * scale);
         }
     }
     let weight: [L; N] = lanes(&group.weight[0]);

@@ -131,7 +131,7 @@ pub(super) unsafe fn scatter_point<
         let (velocity, mass) = unsafe {
             (
                 L::load_point::<D>(columns.velocity.add(p).cast()),
-                *columns.mass.add(p),
+                columns.mass(p),
             )
         };
         // m (v, 1)
@@ -147,18 +147,18 @@ pub(super) unsafe fn scatter_point<
     }
     if what.force {
         // SAFETY: as above
-        let (volume, stress) = unsafe {
+        let (mass, stress) = unsafe {
             let stress = if columns.total {
                 load_matrix::<L, D>(columns.first_piola.add(p))
             } else {
                 L::load_symmetric::<D>(columns.stress.add(p * packed_len(D)))
             };
-            (*columns.volume.add(p), stress)
+            (columns.mass(p), stress)
         };
         let scale = if T::CHANGE {
-            -volume
+            -columns.specific_volume * mass
         } else {
-            -volume * pass.dt
+            -columns.specific_volume * pass.dt * mass
         };
         // zero where a node has its mass: there the stress' columns may hold anything
         let scales = L::new(first_numbers::<D>(scale));

@@ -52,10 +52,15 @@ pub fn traffic<const D: usize>(
     let vector = 8 * D;
     let affine = if traits.affine { 8 * D * D } else { 0 };
     let stress = 8 * packed_len(D);
-    let (mass, volume) = (8, 8);
+    // one number where all points have the same
+    let mass = body.particles.mass.bytes_per_point();
     // positions are read by every pass
     let momenta = vector + mass + affine;
-    let forces = volume + stress;
+    let forces = match scenario.method.update {
+        // a pass of their own, and volumes are masses over the density
+        Scheme::UpdateStressFirst => mass + stress,
+        Scheme::UpdateStressLast | Scheme::ModifiedUpdateStressLast => stress,
+    };
     let velocity = vector * if traits.reads { 2 } else { 1 } + affine;
     let position = vector;
     // what follows from the deformation alone need not be read before it is written
@@ -104,8 +109,8 @@ mod tests {
         let scene = build::<3>(&scenario);
         let memory = scene.state.bodies[0].material.bytes_per_point();
         let moved = traffic(&scenario, &scene.state, 32);
-        // to the grid: x, v, m, C, V, τ; back: x, v, C, x again, τ, memory twice
-        let to_grid = 24 + 24 + 8 + 72 + 8 + 48;
+        // to the grid: x, v, C, τ (all points have one mass); back: x, v, C, x again, τ, memory twice
+        let to_grid = 24 + 24 + 72 + 48;
         let back = 24 + 24 + 72 + 24 + 48 + 2 * memory;
         assert_eq!(moved.points, (to_grid + back) as f64);
         assert_eq!(moved.nodes, 8.0);

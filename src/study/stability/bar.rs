@@ -6,7 +6,7 @@ use crate::material::Plane;
 use crate::run::{Computing, build_with};
 use crate::scenario::{Scenario, parse};
 use crate::solver::{Fault, Solver};
-use crate::state::{Particles, State};
+use crate::state::State;
 
 /// What a bar is.
 #[derive(Clone, Debug)]
@@ -173,21 +173,9 @@ impl Specimen {
 
     /// Kinetic energy in the frame that moves at `drift`, m/s, and elastic energy, J.
     pub fn energy(&self, drift: f64) -> f64 {
-        let Particles {
-            velocity,
-            mass,
-            stress,
-            initial_volume,
-            ..
-        } = &self.state.bodies[0].particles;
-        let kinetic = velocity
-            .iter()
-            .zip(mass)
-            .map(|(v, m)| 0.5 * m * (v[0] - drift).powi(2));
-        let elastic = stress
-            .iter()
-            .zip(initial_volume)
-            .map(|(s, v)| 0.5 * v * s * s);
+        let p = &self.state.bodies[0].particles;
+        let kinetic = (0..p.len()).map(|i| 0.5 * p.mass[i] * (p.velocity[i][0] - drift).powi(2));
+        let elastic = (0..p.len()).map(|i| 0.5 * p.mass.initial_volume(i) * p.stress[i].powi(2));
         kinetic.chain(elastic).sum()
     }
 }

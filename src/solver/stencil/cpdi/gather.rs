@@ -223,7 +223,7 @@ unsafe fn give_velocity<L: Lane, const D: usize, T: Transfer>(
             new[a] = velocity.lane(a);
             square += new[a] * new[a];
         }
-        sums.kinetic += 0.5 * *columns.mass.add(p) * square;
+        sums.kinetic += 0.5 * columns.mass(p) * square;
         // `max` would hide a velocity that is not a number
         sums.within &= square.is_finite();
         sums.speed_squared = sums.speed_squared.max(square);

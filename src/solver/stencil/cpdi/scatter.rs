@@ -91,7 +91,7 @@ pub(super) unsafe fn scatter_point<L: Lane, const D: usize, T: Transfer>(
         let (velocity, mass) = unsafe {
             (
                 L::load_point::<D>(columns.velocity.add(p).cast()),
-                *columns.mass.add(p),
+                columns.mass(p),
             )
         };
         let mut unit = [0.0; 4];
@@ -148,7 +148,7 @@ unsafe fn pull<L: Lane, const D: usize, T: Transfer>(
 ) {
     let inverse_h = 1.0 / pass.cell_size;
     // SAFETY: as the caller says
-    let (volume, stress) = unsafe {
+    let (mass, stress) = unsafe {
         let stress = if columns.total {
             let mut stress = [L::splat(0.0); D];
             for a in 0..D {
@@ -158,12 +158,12 @@ unsafe fn pull<L: Lane, const D: usize, T: Transfer>(
         } else {
             L::load_symmetric::<D>(columns.stress.add(p * packed_len(D)))
         };
-        (*columns.volume.add(p), stress)
+        (columns.mass(p), stress)
     };
     let scale = if T::CHANGE {
-        -volume
+        -columns.specific_volume * mass
     } else {
-        -volume * pass.dt
+        -columns.specific_volume * pass.dt * mass
     };
     // zero where a node has its mass: there the stress' columns may hold anything
     let mut scales = [0.0; 4];
