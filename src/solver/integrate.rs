@@ -73,7 +73,7 @@ pub fn for_each_row<const D: usize, R: Send>(
 const PRESENT: f64 = 1.0;
 
 /// Below this mass a node's velocity cannot be computed; no point comes near it.
-const NO_MASS: f64 = 1e-290;
+pub const NO_MASS: f64 = 1e-290;
 
 impl<const D: usize> GridStep<'_, D> {
     /// Turns momenta and forces into velocities at the end of the step and their changes; `sums` gets one entry a row.
