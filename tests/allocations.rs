@@ -109,6 +109,7 @@ fn a_warm_step_allocates_nothing() {
             variant("quadratic", "\"apic\"", "usl", "updated"),
             variant("gimp", "\"pic\"", "usf", "updated"),
             variant("cubic", "\"flip\"", "usl", "updated"),
+            variant("quadratic", "\"fmpm\"", "usl", "updated"),
             variant("quadratic", "\"flip\"", "musl", "total"),
             variant("linear", "\"apic\"", "usf", "total"),
             variant("cpdi", "\"apic\"", "musl", "updated"),

@@ -87,6 +87,48 @@ fn a_small_chart_has_every_run_a_frontier_and_second_order() {
     assert_eq!(code(&strict), 1, "nothing is so accurate");
 }
 
+/// What `--tolerance` shows can be pasted into a scenario, a parameter as well.
+#[test]
+fn a_transfer_with_its_parameter_is_one_of_its_own() {
+    let folder = folder("parameter");
+    let arguments = [
+        "bar1d",
+        "--transfer=pic,fmpm(1),fmpm(3)",
+        "--basis=quadratic",
+        "--frame=updated",
+        "--points=2",
+        "--courant=0.4",
+        "--cells=8",
+        "--repeat=1",
+        "--tolerance=0.02",
+    ];
+    let output = chart(&folder, &arguments);
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    let pasted = "transfer = { fmpm = { order = 3 } }";
+    assert!(shown.lines().any(|line| line == pasted), "{shown}");
+    let rows = std::fs::read_to_string(folder.join("charts/bar1d/chart.csv")).expect("a table");
+    let errors: Vec<&str> = ["quadratic,pic,", "quadratic,fmpm(1),", "quadratic,fmpm(3),"]
+        .iter()
+        .map(|method| {
+            let row = rows.lines().find(|row| row.contains(method));
+            let row = row.unwrap_or_else(|| panic!("no {method} in {rows}"));
+            let header = rows.lines().next().expect("a header");
+            let column = header.split(',').position(|name| name == "error");
+            row.split(',')
+                .nth(column.expect("a column"))
+                .expect("a number")
+        })
+        .collect();
+    assert_eq!(errors[0], errors[1], "order 1 is PIC");
+    assert_ne!(errors[1], errors[2]);
+
+    for wrong in ["fmpm(0)", "fmpm(2.5)", "pic(1)"] {
+        let output = chart(&folder, &["bar1d", "--transfer", wrong, "--force"]);
+        assert_eq!(code(&output), 2, "{wrong}: {}", text(&output.stderr));
+    }
+}
+
 #[test]
 fn the_frame_is_an_axis_that_agrees_for_small_motion() {
     let folder = folder("frame");

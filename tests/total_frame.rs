@@ -79,7 +79,8 @@ fn a_stretch_to_three_times_the_length_gives_the_stress_of_the_law() {
     let rate = [[10.0, 1.0, 0.5], [0.5, -2.5, 0.0], [-0.5, 1.0, -1.0]];
     for dimension in 1..=3 {
         for variant in variants_in("total") {
-            if dimension == 3 && variant.basis == "cubic" {
+            let far = variant.transfer.contains("fmpm") && variant.basis == "quadratic";
+            if dimension == 3 && (variant.basis == "cubic" || far) {
                 continue; // what the faces do has reached every point that a small cube has
             }
             let mut gradient = rate;

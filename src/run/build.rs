@@ -227,6 +227,7 @@ fn build_solver<const D: usize>(
     Mpm::new(Setup {
         geometry: method.geometry,
         kernels: method.kernels,
+        terms: scenario.method.transfer.terms(),
         scheme: scenario.method.update,
         gravity: Vector::from_fn(|a, _| scenario.gravity[a]),
         damping: scenario.damping,

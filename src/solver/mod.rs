@@ -12,6 +12,7 @@ mod mpm;
 mod passes;
 #[cfg(test)]
 mod plain;
+mod sharpen;
 mod sort;
 pub mod stencil;
 mod time_step;

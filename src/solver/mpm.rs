@@ -21,6 +21,8 @@ pub struct Setup<const D: usize> {
     pub geometry: Geometry<D>,
     /// The basis and the transfer.
     pub kernels: Box<dyn Kernels<D>>,
+    /// Terms of the velocities that points take from the grid, see [`Method::terms`](crate::transfer::Method::terms).
+    pub terms: u32,
     /// When stresses are updated.
     pub scheme: Scheme,
     /// Acceleration of gravity, m/s².
@@ -41,6 +43,7 @@ pub struct Setup<const D: usize> {
 pub struct Mpm<const D: usize> {
     pub(super) geometry: Geometry<D>,
     pub(super) kernels: Box<dyn Kernels<D>>,
+    pub(super) terms: u32,
     pub(super) scheme: Scheme,
     pub(super) edge: i32,
     pub(super) gravity: Vector<D>,
@@ -54,6 +57,9 @@ pub struct Mpm<const D: usize> {
     pub(super) change: Vec<Node>,
     pub(super) second: Vec<Node>,
     pub(super) external: Vec<Node>,
+    /// The last term of the velocities, m/s, and the momenta of points that move with it.
+    pub(super) term: Vec<Node>,
+    pub(super) image: Vec<Node>,
     pub(super) row_sums: Vec<GridSums>,
     pub(super) constraints: Vec<Constraint<D>>,
     pub(super) constraint_ranges: Vec<(u32, u32)>,
@@ -91,6 +97,7 @@ impl<const D: usize> Mpm<D> {
             edge: block_edge(D, setup.kernels.nodes()),
             geometry,
             kernels: setup.kernels,
+            terms: setup.terms,
             scheme: setup.scheme,
             gravity: setup.gravity,
             damping: setup.damping,
@@ -102,6 +109,8 @@ impl<const D: usize> Mpm<D> {
             change: Vec::new(),
             second: Vec::new(),
             external: Vec::new(),
+            term: Vec::new(),
+            image: Vec::new(),
             row_sums: Vec::new(),
             constraints: Vec::new(),
             constraint_ranges: Vec::new(),
@@ -120,6 +129,11 @@ impl<const D: usize> Mpm<D> {
     /// Whether velocities other than those at the end of the step strain the points.
     pub(super) fn has_second(&self) -> bool {
         self.scheme != Scheme::UpdateStressLast
+    }
+
+    /// Whether points take more from the grid than the first term.
+    pub(super) fn has_terms(&self) -> bool {
+        self.terms > 1
     }
 
     /// Uses plain arithmetic even where the processor offers more.
@@ -145,7 +159,6 @@ impl<const D: usize> Mpm<D> {
             wide: self.wide,
         };
         step.integrate(&mut self.row_sums, self.parallel);
-        self.react(dt);
         self.row_sums
             .iter()
             .fold(GridSums::default(), GridSums::and)
@@ -271,13 +284,16 @@ impl<const D: usize> Solver<D> for Mpm<D> {
             _ => self.points_to_grid(state, dt, Scattered::ALL),
         }
         self.loads_to_grid(state, dt);
-        let sums = self.grid_step(state, dt);
+        let sums = self.grid_step(state, dt).and(&self.sharpen(state, dt));
+        self.react(dt);
         let sources = self.sources();
         let gathered = match self.scheme {
             Scheme::UpdateStressFirst => self.grid_to_points(state, dt, Wanted::MOTION, &sources),
             Scheme::UpdateStressLast => self.grid_to_points(state, dt, Wanted::ALL, &sources),
             Scheme::ModifiedUpdateStressLast => {
-                let gathered = self.exchange(state, dt, &sources);
+                let mut second = std::mem::take(&mut self.second);
+                let gathered = self.exchange(state, dt, &sources, &mut second);
+                self.second = second;
                 self.second_velocities(state.time + dt);
                 let rest = Wanted::POSITION_AND_STRAIN;
                 gathered.and(self.grid_to_points(state, dt, rest, &sources))
@@ -377,7 +393,8 @@ impl<const D: usize> Solver<D> for Mpm<D> {
         let arrays = 1
             + usize::from(self.kernels.change())
             + usize::from(self.has_second())
-            + usize::from(!self.loads.is_empty());
+            + usize::from(!self.loads.is_empty())
+            + if self.has_terms() { 2 } else { 0 };
         arrays * size_of::<Node>()
     }
 }

@@ -113,10 +113,16 @@ impl<const D: usize> Mpm<D> {
         }
     }
 
-    /// New velocities of the points from `from`, and their momenta and masses to the second array.
-    pub(super) fn exchange(&mut self, state: &mut State<D>, dt: f64, from: &Sources) -> Gathered {
-        clear(&mut self.second, &self.blocks.rows, self.parallel);
-        let second = Target(self.second.as_mut_ptr());
+    /// New velocities of the points from `from`, and their momenta and masses to `second`, an array of the grid.
+    pub(super) fn exchange(
+        &mut self,
+        state: &mut State<D>,
+        dt: f64,
+        from: &Sources,
+        second: &mut [Node],
+    ) -> Gathered {
+        clear(second, &self.blocks.rows, self.parallel);
+        let second = Target(second.as_mut_ptr());
         let from = Readable(*from);
         let mut results = std::mem::take(&mut self.gathered);
         let mut total = Gathered::NONE;

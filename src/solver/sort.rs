@@ -267,6 +267,10 @@ impl<const D: usize> Mpm<D> {
         if !self.loads.is_empty() {
             self.external.resize(stored, Default::default());
         }
+        if self.has_terms() {
+            self.term.resize(stored, Default::default());
+            self.image.resize(stored, Default::default());
+        }
         self.row_sums
             .resize(self.blocks.rows.len(), Default::default());
         self.constraints.clear();

@@ -26,6 +26,36 @@ pub trait Transfer: Copy + Send + Sync + 'static {
     fn velocity<R: Real>(&self, old: R, new: R, change: R) -> R;
 }
 
+/// What a scenario can choose: what is done to the velocities of the grid, then what each point makes of them.
+///
+/// A [`Transfer`] is such a method by itself, which takes the velocities of the grid as they are.
+pub trait Method: Parameters {
+    /// What each point does. Methods that share it share its compiled kernels.
+    type Point: Transfer;
+
+    /// What each point does, with its parameters.
+    fn point(&self) -> Self::Point;
+
+    /// How many terms of the series Σ_j (I − S⁺S)^j v make the velocities that points take from the velocities v of the grid; the
+    /// first of them is v itself.
+    ///
+    /// S brings velocities from the grid to points, (S v)_p = Σ_i N_i v_i, and S⁺ those of points to the grid by momenta and lumped
+    /// masses, (S⁺ V)_i = Σ_p N_i m_p V_p / m_i.
+    fn terms(&self) -> u32;
+}
+
+impl<T: Transfer + Parameters> Method for T {
+    type Point = T;
+
+    fn point(&self) -> T {
+        *self
+    }
+
+    fn terms(&self) -> u32 {
+        1
+    }
+}
+
 /// Something to be done with a transfer whose type is not known before the run.
 pub trait TransferVisitor {
     /// What comes out.
@@ -35,7 +65,7 @@ pub trait TransferVisitor {
 }
 
 macro_rules! transfers {
-    ($($name:literal => $module:ident::$transfer:ident),* $(,)?) => {
+    ($($name:literal $(($parameter:literal))? => $module:ident::$transfer:ident),* $(,)?) => {
         $(mod $module; pub use $module::$transfer;)*
 
         /// Every transfer, by its name in a scenario.
@@ -46,6 +76,11 @@ macro_rules! transfers {
             /// All names.
             pub const NAMES: &'static [&'static str] = &[$($name),*];
 
+            /// The one parameter of the transfer called `name`, if it has any.
+            pub fn parameter(name: &str) -> Option<&'static str> {
+                match name { $($($name => Some($parameter),)?)* _ => None }
+            }
+
             /// Its name in a scenario.
             pub fn name(&self) -> &'static str { match self { $(Self::$transfer(_) => $name),* } }
 
@@ -55,11 +90,16 @@ macro_rules! transfers {
             }
 
             /// Whether points carry an affine velocity field.
-            pub fn is_affine(&self) -> bool { match self { $(Self::$transfer(_) => $transfer::AFFINE),* } }
+            pub fn is_affine(&self) -> bool {
+                match self { $(Self::$transfer(_) => <$transfer as Method>::Point::AFFINE),* }
+            }
 
-            /// Calls the visitor with the transfer.
+            /// See [`Method::terms`].
+            pub fn terms(&self) -> u32 { match self { $(Self::$transfer(method) => method.terms()),* } }
+
+            /// Calls the visitor with what each point does.
             pub fn visit<V: TransferVisitor>(&self, visitor: V) -> V::Output {
-                match self { $(Self::$transfer(transfer) => visitor.visit(*transfer)),* }
+                match self { $(Self::$transfer(transfer) => visitor.visit(transfer.point())),* }
             }
         }
     };
@@ -67,8 +107,9 @@ macro_rules! transfers {
 
 transfers! {
     "pic" => pic::Pic,
-    "flip" => flip::Flip,
+    "flip"("ratio") => flip::Flip,
     "apic" => apic::Apic,
     "mls_apic" => mls_apic::MlsApic,
     "tpic" => tpic::Tpic,
+    "fmpm"("order") => fmpm::Fmpm,
 }

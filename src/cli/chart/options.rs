@@ -69,6 +69,11 @@ impl clap::Args for AxisArguments {
         AXES.iter().fold(command, |command, axis| {
             let (values, sample) = match axis.values {
                 Values::Names(names) => (format!(": {}", names.join(", ")), "NAME,…"),
+                Values::Transfers => {
+                    let names = axis.values.names().join(", ");
+                    let with = ", a parameter in parentheses: fmpm(3)";
+                    (format!(": {names}{with}"), "NAME,…")
+                }
                 Values::Counts(_) | Values::Numbers(_) => (String::new(), "N,…"),
             };
             let arg = Arg::new(axis.name)

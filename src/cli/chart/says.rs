@@ -176,7 +176,7 @@ pub fn to_paste(chart: &Chart, cost: Cost, tolerance: f64) -> String {
     let setting = &trial.setting;
     let method = AXES.iter().zip(&setting.0).filter_map(|(axis, value)| {
         let names = !axis.names().is_empty();
-        names.then(|| format!("{} = \"{value}\"\n", axis.name))
+        names.then(|| format!("{} = {}\n", axis.name, value.toml()))
     });
     format!(
         "\n# the {what} of {} runs of {} with an error of at most {tolerance:e}: {:.2e} in {} (work {:.2e})\n\
@@ -239,7 +239,7 @@ fn named(setting: &Setting) -> Map<String, Value> {
     use crate::study::chart::Value as Of;
     let pairs = AXES.iter().zip(&setting.0).map(|(axis, value)| {
         let value = match value {
-            Of::Name(name) => json!(name),
+            Of::Name(_) | Of::With(..) => json!(value.to_string()),
             Of::Count(count) => json!(count),
             Of::Number(number) => json!(number),
         };

@@ -218,8 +218,8 @@ impl BasisVisitor for EveryPass {
     fn visit<const N: usize, B: Basis<N>>(self, basis: B) {
         assert_eq!(
             TransferChoice::NAMES,
-            ["pic", "flip", "apic", "mls_apic", "tpic"],
-            "a new transfer needs its plain form here"
+            ["pic", "flip", "apic", "mls_apic", "tpic", "fmpm"],
+            "a new transfer needs its plain form here (points of FMPM are those of PIC; tests/full_mass.rs has its matrices)"
         );
         self.dimensions(basis, Pic, Method::Pic);
         self.dimensions(basis, Flip { ratio: 1.0 }, Method::Flip(1.0));

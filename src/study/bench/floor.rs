@@ -74,7 +74,10 @@ pub fn traffic<const D: usize>(
         Scheme::ModifiedUpdateStressLast => momenta,
         _ => 0,
     };
-    let points = passes * vector + momenta + forces + velocity + position + strain + again;
+    // each term more reads where points are and what they weigh
+    let terms = scenario.method.transfer.terms() as usize - 1;
+    let series = terms * (vector + mass);
+    let points = passes * vector + momenta + forces + velocity + position + strain + again + series;
     let per_cell: f64 = scenario.bodies[0]
         .particles_per_cell
         .iter()

@@ -22,10 +22,23 @@ pub struct Axis {
 pub enum Values {
     /// Some names.
     Names(&'static [&'static str]),
+    /// Names of transfers, each alone or with its parameter: `fmpm`, `fmpm(3)`.
+    Transfers,
     /// Whole numbers from 1 up to this one.
     Counts(u32),
     /// Positive numbers up to this one.
     Numbers(f64),
+}
+
+impl Values {
+    /// All names, where values are names; none where they are numbers.
+    pub fn names(&self) -> &'static [&'static str] {
+        match self {
+            Self::Names(names) => names,
+            Self::Transfers => TransferChoice::NAMES,
+            Self::Counts(_) | Self::Numbers(_) => &[],
+        }
+    }
 }
 
 /// Where in a scenario a value goes.
@@ -64,7 +77,7 @@ pub const AXES: &[Axis] = &[
     Axis {
         name: "transfer",
         help: "Velocity transfers",
-        values: Values::Names(TransferChoice::NAMES),
+        values: Values::Transfers,
         place: Place::Key("method.transfer"),
     },
     Axis {
@@ -98,6 +111,8 @@ pub const AXES: &[Axis] = &[
 pub enum Value {
     /// A name.
     Name(&'static str),
+    /// A name and its parameter: what that is called, and its value.
+    With(&'static str, &'static str, f64),
     /// A whole number.
     Count(u32),
     /// A number.
@@ -110,7 +125,20 @@ impl Value {
         match self {
             Self::Count(count) => f64::from(count),
             Self::Number(number) => number,
-            Self::Name(_) => f64::NAN,
+            Self::Name(_) | Self::With(..) => f64::NAN,
+        }
+    }
+}
+
+impl Value {
+    /// As a value of TOML.
+    pub fn toml(self) -> String {
+        match self {
+            Self::Name(name) => format!("\"{name}\""),
+            Self::With(name, parameter, number) => {
+                format!("{{ {name} = {{ {parameter} = {number} }} }}")
+            }
+            Self::Count(_) | Self::Number(_) => self.to_string(),
         }
     }
 }
@@ -119,6 +147,7 @@ impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Name(name) => f.write_str(name),
+            Self::With(name, _, number) => write!(f, "{name}({number})"),
             Self::Count(count) => count.fmt(f),
             Self::Number(number) => number.fmt(f),
         }
@@ -129,13 +158,29 @@ impl Axis {
     /// Reads a value, or says what is wrong with the text.
     pub fn read(&self, text: &str) -> Result<Value, String> {
         let option = self.name;
+        let name = |names: &[&'static str], text: &str| {
+            let found = names.iter().find(|name| **name == text);
+            found.copied().ok_or_else(|| {
+                let all = names.join(", ");
+                format!("--{option}: there is no \"{text}\"; known: {all}")
+            })
+        };
         match self.values {
-            Values::Names(names) => {
-                let found = names.iter().find(|name| **name == text);
-                found.map(|name| Value::Name(name)).ok_or_else(|| {
-                    let all = names.join(", ");
-                    format!("--{option}: there is no \"{text}\"; known: {all}")
-                })
+            Values::Names(names) => name(names, text).map(Value::Name),
+            Values::Transfers => {
+                let Some((of, number)) = text.strip_suffix(')').and_then(|t| t.split_once('('))
+                else {
+                    return name(TransferChoice::NAMES, text).map(Value::Name);
+                };
+                let of = name(TransferChoice::NAMES, of)?;
+                let Some(parameter) = TransferChoice::parameter(of) else {
+                    return Err(format!("--{option}: {of} has no parameter: write {of}"));
+                };
+                let number = number.parse::<f64>().ok();
+                let number = number.filter(|number| number.is_finite()).ok_or_else(|| {
+                    format!("--{option}: the {parameter} in \"{text}\" is not a number")
+                })?;
+                Ok(Value::With(of, parameter, number))
             }
             Values::Counts(most) => match text.parse::<u32>() {
                 Ok(count) if (1..=most).contains(&count) => Ok(Value::Count(count)),
@@ -154,10 +199,8 @@ impl Axis {
 
     /// All names, where values are names.
     pub fn names(&self) -> Vec<Value> {
-        match self.values {
-            Values::Names(names) => names.iter().map(|name| Value::Name(name)).collect(),
-            _ => Vec::new(),
-        }
+        let names = self.values.names().iter();
+        names.map(|name| Value::Name(name)).collect()
     }
 }
 
@@ -203,7 +246,7 @@ impl Setting {
     /// The method alone: the names.
     pub fn method(&self) -> String {
         let names = self.0.iter().filter_map(|value| match value {
-            Value::Name(name) => Some(*name),
+            Value::Name(_) | Value::With(..) => Some(value.to_string()),
             _ => None,
         });
         names.collect::<Vec<_>>().join(" ")
@@ -214,7 +257,7 @@ impl Setting {
         let mut all = Vec::new();
         for (axis, value) in AXES.iter().zip(&self.0) {
             match axis.place {
-                Place::Key(key) => all.push(format!("{key}=\"{value}\"")),
+                Place::Key(key) => all.push(format!("{key}={}", value.toml())),
                 Place::Points => {
                     all.extend(
                         (0..bodies).map(|body| format!("body[{body}].particles_per_cell={value}")),
@@ -278,6 +321,24 @@ mod tests {
     }
 
     #[test]
+    fn a_transfer_with_its_parameter_reads_back_as_it_is_written() {
+        let transfer = &AXES[axis("transfer")];
+        for text in ["fmpm(3)", "flip(0.9)", "apic"] {
+            let value = transfer.read(text).expect("a transfer");
+            assert_eq!(value.to_string(), text);
+            let mut values = vec![Value::Count(1); AXES.len()];
+            values[axis("transfer")] = value;
+            let overrides = Setting(values).overrides(0, 1.0);
+            let expected = match text {
+                "fmpm(3)" => "method.transfer={ fmpm = { order = 3 } }",
+                "flip(0.9)" => "method.transfer={ flip = { ratio = 0.9 } }",
+                _ => "method.transfer=\"apic\"",
+            };
+            assert!(overrides.contains(&expected.to_string()), "{overrides:?}");
+        }
+    }
+
+    #[test]
     fn a_value_that_cannot_be_is_refused_with_what_can() {
         let basis = &AXES[axis("basis")];
         assert!(
@@ -288,5 +349,9 @@ mod tests {
         let courant = &AXES[axis("courant")];
         assert!(courant.read("0").is_err() && courant.read("nan").is_err());
         assert_eq!(courant.read("0.3"), Ok(Value::Number(0.3)));
+        let transfer = &AXES[axis("transfer")];
+        for wrong in ["pic(2)", "fmpm(many)", "fmpm()", "upic(2)", "fmpm(nan)"] {
+            assert!(transfer.read(wrong).is_err(), "{wrong}");
+        }
     }
 }

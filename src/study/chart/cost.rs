@@ -12,6 +12,11 @@ pub fn passes(update: Scheme) -> u32 {
     }
 }
 
+/// Passes more that the terms of a transfer take: for each but the first, from the grid to the points and back.
+pub fn term_passes(scenario: &Scenario) -> u32 {
+    2 * (scenario.method.transfer.terms() - 1)
+}
+
 /// How many nodes a point meets in a pass: nᵈ for n functions an axis; of a domain each of the 2ᵈ corners meets 2ᵈ nodes.
 pub fn stencil_nodes(scenario: &Scenario) -> u64 {
     struct Nodes;
@@ -46,7 +51,7 @@ pub fn tensor_passes(frame: ReferenceFrame) -> u32 {
 /// Work of a run: steps × points × (nodes in a stencil × passes + tensor passes), the number of times that a point meets a node.
 pub fn work(scenario: &Scenario, points: usize, steps: u64) -> f64 {
     let method = &scenario.method;
-    let visits = stencil_nodes(scenario) * u64::from(passes(method.update))
+    let visits = stencil_nodes(scenario) * u64::from(passes(method.update) + term_passes(scenario))
         + u64::from(tensor_passes(method.frame));
     points as f64 * steps as f64 * visits as f64
 }
@@ -55,6 +60,28 @@ pub fn work(scenario: &Scenario, points: usize, steps: u64) -> f64 {
 mod tests {
     use super::*;
     use crate::scenario::parse;
+
+    #[test]
+    fn each_term_of_fmpm_costs_a_step_of_pic_more() {
+        let text = include_str!("../../../scenarios/bar1d.toml");
+        let of = |transfer: &str| {
+            let overrides = [
+                format!("method.transfer={transfer}"),
+                "method.basis=\"quadratic\"".into(),
+                "method.update=\"usl\"".into(),
+            ];
+            work(
+                &parse("bar1d", text, &overrides)
+                    .expect("a scenario")
+                    .scenario,
+                10,
+                7,
+            )
+        };
+        assert_eq!(of("\"pic\""), 70.0 * 6.0);
+        assert_eq!(of("{ fmpm = { order = 1 } }"), 70.0 * 6.0);
+        assert_eq!(of("{ fmpm = { order = 4 } }"), 70.0 * 24.0);
+    }
 
     #[test]
     fn the_total_frame_costs_two_nodes_a_point_more() {

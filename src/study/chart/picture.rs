@@ -1,6 +1,6 @@
 //! From trials to a picture.
 
-use super::axes::{AXES, Setting, Value, Values};
+use super::axes::{AXES, Setting, Value};
 use super::{Chart, Cost, Status, Subject};
 use crate::report::{Best, Group, TradeOff};
 
@@ -149,7 +149,7 @@ pub fn label(setting: &Setting, varied: &[&str]) -> String {
     let shows = |name: &str| varied.contains(&name);
     let names: Vec<String> = AXES
         .iter()
-        .filter(|axis| matches!(axis.values, Values::Names(_)) && shows(axis.name))
+        .filter(|axis| !axis.values.names().is_empty() && shows(axis.name))
         .map(|axis| setting.get(axis.name).to_string())
         .collect();
     let mut parts = Vec::new();
