@@ -195,6 +195,16 @@ fn describe(plan: &Plan) -> String {
             cost.nanoseconds_per_particle_step
         ),
     ));
+    for advice in &plan.advice {
+        let factor = match advice.factor {
+            Some(factor) => format!(", about {factor:.1} times cheaper"),
+            None => String::new(),
+        };
+        lines.push((
+            "advice",
+            format!("{}{factor}. {}", advice.says, advice.change),
+        ));
+    }
     let line = |(name, value): (&str, String)| format!("{name:<10} {value}\n");
     lines.into_iter().map(line).collect()
 }

@@ -1,5 +1,6 @@
 //! The command line: what can be asked, and what the program says and returns.
 
+mod advice;
 mod bench;
 mod chart;
 mod check;

@@ -1,5 +1,6 @@
 //! What running a scenario would mean: what is modelled, what it costs, what is likely to surprise.
 
+use super::advice::{Advice, Subject, advise};
 use super::reach;
 use super::run::step_warning;
 use crate::input::Variables;
@@ -42,6 +43,8 @@ pub struct Plan {
     pub damping_rate: f64,
     pub probes: Vec<String>,
     pub warnings: Vec<String>,
+    /// What would be cheaper, or safer, and as good.
+    pub advice: Vec<Advice>,
 }
 
 #[derive(Debug, Serialize)]
@@ -174,6 +177,15 @@ impl SceneVisitor for Planner<'_> {
             .map(|body| body.bytes_per_particle * body.particles as f64)
             .sum();
         let largest = bodies.iter().map(|body| body.particles).max().unwrap_or(0);
+        let sets: Vec<PointSet> = (0..scenario.bodies.len())
+            .map(|body| body_points(scenario, body))
+            .collect();
+        let advice = advise(&Subject {
+            scenario,
+            sets: &sets,
+            crossing_time: time_step.crossing_time,
+            dt: time_step.dt,
+        });
         let cost = cost(scenario, &mut scene, time_step.steps, &mut warnings);
         Plan {
             status: "ready",
@@ -204,6 +216,7 @@ impl SceneVisitor for Planner<'_> {
             damping_rate: scenario.damping,
             probes: scenario.probes.iter().map(|p| p.name.clone()).collect(),
             warnings,
+            advice,
         }
     }
 }

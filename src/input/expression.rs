@@ -177,6 +177,11 @@ impl Expression {
         self.program.contains(&Op::Load(3))
     }
 
+    /// True if it depends on the position along an axis, 0, 1 or 2.
+    pub fn depends_on_axis(&self, axis: usize) -> bool {
+        self.program.contains(&Op::Load(axis as u8))
+    }
+
     /// Its value in SI units. Not finite where the formula is not defined.
     pub fn value(&self, at: &Variables) -> f64 {
         if let [Op::Push(value)] = *self.program {

@@ -1,0 +1,77 @@
+//! A motion so small that the configuration in which shape functions are taken makes no difference: hat functions of the
+//! initial positions meet fewer nodes, and nothing crosses a cell.
+
+use super::{Advice, Subject, cost, locking, stencil};
+use crate::boundary::ConditionChoice;
+use crate::input::Variables;
+use crate::material::Plane;
+use crate::scenario::ReferenceFrame;
+
+/// What points may move, in cells.
+const SMALL: f64 = 0.1;
+
+pub fn advise(subject: &Subject) -> Vec<Advice> {
+    let scenario = subject.scenario;
+    let nodes = stencil(scenario);
+    // bodies do not meet in the total frame, and walls stop only what touches them at the start
+    let meets = scenario.bodies.len() > 1
+        || scenario
+            .boundaries
+            .iter()
+            .any(|spec| matches!(spec.condition, ConditionChoice::Wall(_)));
+    let locks =
+        scenario.plane != Plane::Stress && locking::highest_ratio(scenario).1 >= locking::HIGH;
+    // in 1D the frame costs what two nodes in place of three save
+    if scenario.method.frame == ReferenceFrame::Total
+        || nodes == 2
+        || scenario.dimension == 1
+        || meets
+        || locks
+    {
+        return Vec::new();
+    }
+    let Some(way) = way(subject) else {
+        return Vec::new();
+    };
+    let way = way / scenario.grid.cell_size;
+    if way > SMALL {
+        return Vec::new();
+    }
+    let dimension = scenario.dimension;
+    let [more, fewer] = [nodes, 2].map(|nodes| nodes.pow(dimension as u32));
+    vec![Advice {
+        kind: "small_motion",
+        says: format!(
+            "points move about {way:.2e} of a cell: linear functions of the initial positions may do, {fewer} nodes a point in place of \
+             {more}; they are stiffer in bending (compare with mpm chart --frame updated,total --basis linear,{})",
+            scenario.method.basis.name()
+        ),
+        change: "method.frame = \"total\", method.basis = \"linear\"".into(),
+        // turning rates and stresses is as dear as one more node
+        factor: Some(cost(nodes, dimension) / (cost(2, dimension) + cost(1, 1) - cost(0, 1))),
+    }]
+}
+
+/// How far the fastest point would come if nothing held it, m; not known where something pushes.
+fn way(subject: &Subject) -> Option<f64> {
+    let scenario = subject.scenario;
+    let driven =
+        |spec: &crate::scenario::BoundarySpec| matches!(spec.condition, ConditionChoice::Driven(_));
+    if !scenario.loads.is_empty() || scenario.boundaries.iter().any(driven) {
+        return None;
+    }
+    let norm = |vector: &[f64]| vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut fastest = 0.0_f64;
+    for (body, set) in scenario.bodies.iter().zip(subject.sets) {
+        for &position in &set.positions {
+            let at = Variables {
+                position,
+                time: 0.0,
+            };
+            let square = |v: &crate::input::Expression| v.value(&at).powi(2);
+            fastest = fastest.max(body.velocity.iter().map(square).sum::<f64>().sqrt());
+        }
+    }
+    let end = scenario.end;
+    Some(fastest * end + 0.5 * norm(&scenario.gravity) * end * end)
+}

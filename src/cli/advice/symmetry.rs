@@ -1,0 +1,214 @@
+//! A scene that is its own mirror image about the middle of the grid: half of it is enough.
+
+use super::uniform::{axes as uniform_axes, same};
+use super::{AXES, Advice, Subject, aligned, along, stencil};
+use crate::boundary::{ConditionChoice, Side};
+use crate::input::{Expression, Variables};
+use crate::material::Plane;
+use crate::scenario::{
+    BodySpec, BoundarySpec, GridSpec, LoadKind, LoadSpec, PointSet, Region, Scenario,
+};
+
+pub fn advise(subject: &Subject) -> Vec<Advice> {
+    let Subject { scenario, sets, .. } = *subject;
+    let uniform = uniform_axes(subject);
+    let dimension = scenario.dimension;
+    let symmetric = (0..dimension).filter(|axis| {
+        !uniform.contains(axis)
+            && !(*axis == 0 && scenario.plane == Plane::Axisymmetric)
+            && is_symmetric(scenario, sets, *axis)
+    });
+    symmetric.map(|axis| advice(scenario, axis)).collect()
+}
+
+fn advice(scenario: &Scenario, axis: usize) -> Advice {
+    let name = AXES[axis];
+    let middle = Mirror::new(&scenario.grid, axis).middle;
+    let whole = |load: &&LoadSpec| matches!(load.kind, LoadKind::Force(_));
+    let halved = match scenario.loads.iter().find(whole) {
+        Some(_) => "; halve forces whose points lie on both sides",
+        None => "",
+    };
+    Advice {
+        kind: "mirror_symmetry",
+        says: format!(
+            "the scene is its own mirror image about {name} = {middle} m: half of it, against a roller, gives the same answer{}",
+            if stencil(scenario) == 2 {
+                ""
+            } else {
+                " up to the error of the grid"
+            }
+        ),
+        change: format!(
+            "grid.min[{axis}] = {middle}, bodies and loads cut off there, a boundary with on.side = \"{name}_min\" and condition = \
+             \"roller\" in place of those on that side{halved}"
+        ),
+        factor: Some(2.0),
+    }
+}
+
+/// The plane in the middle of the grid across an axis.
+struct Mirror<'a> {
+    grid: &'a GridSpec,
+    axis: usize,
+    middle: f64,
+}
+
+impl<'a> Mirror<'a> {
+    fn new(grid: &'a GridSpec, axis: usize) -> Self {
+        Self {
+            grid,
+            axis,
+            middle: 0.5 * (grid.min[axis] + grid.max[axis]),
+        }
+    }
+
+    fn place(&self, x: f64) -> f64 {
+        2.0 * self.middle - x
+    }
+
+    fn side(&self, side: Side) -> Side {
+        Side {
+            axis: side.axis,
+            upper: side.upper != (side.axis == self.axis),
+        }
+    }
+
+    fn region(&self, on: &Region) -> Region {
+        match on {
+            Region::Side(side) => Region::Side(self.side(*side)),
+            Region::Box { min, max } => {
+                let (mut low, mut high) = (min.clone(), max.clone());
+                low[self.axis] = self.place(max[self.axis]);
+                high[self.axis] = self.place(min[self.axis]);
+                Region::Box {
+                    min: low,
+                    max: high,
+                }
+            }
+        }
+    }
+
+    fn vector(&self, vector: &[f64]) -> Vec<f64> {
+        let mut image = vector.to_vec();
+        image[self.axis] *= -1.0;
+        image
+    }
+
+    /// The image of one component of a vector field; none where that is not certain.
+    fn component(&self, a: usize, formula: &Expression) -> Option<Expression> {
+        if a != self.axis {
+            return (!formula.depends_on_axis(self.axis)).then(|| formula.clone());
+        }
+        let value = formula.value(&Variables::default());
+        formula.is_constant().then(|| Expression::constant(-value))
+    }
+
+    /// Whether two regions are the same but for round-off.
+    fn same_region(&self, a: &Region, b: &Region) -> bool {
+        let equal = |(a, b): (&f64, &f64)| a == b || same(*a, *b, self.grid);
+        match (a, b) {
+            (Region::Side(a), Region::Side(b)) => a == b,
+            (
+                Region::Box { min, max },
+                Region::Box {
+                    min: low,
+                    max: high,
+                },
+            ) => min.iter().zip(low).all(equal) && max.iter().zip(high).all(equal),
+            _ => false,
+        }
+    }
+
+    fn condition(&self, condition: &ConditionChoice) -> Option<ConditionChoice> {
+        let mut image = condition.clone();
+        match &mut image {
+            ConditionChoice::Fixed(_) | ConditionChoice::Roller(_) => {}
+            ConditionChoice::Wall(wall) => wall.side = self.side(wall.side),
+            ConditionChoice::Driven(driven) => {
+                for (a, component) in driven.velocity.iter_mut().enumerate() {
+                    if let Some(formula) = component {
+                        *component = Some(self.component(a, formula)?);
+                    }
+                }
+            }
+        }
+        Some(image)
+    }
+
+    fn load(&self, kind: &LoadKind) -> Option<LoadKind> {
+        Some(match kind {
+            LoadKind::Force(force) => LoadKind::Force(self.vector(force)),
+            LoadKind::Traction { traction, side } => LoadKind::Traction {
+                traction: self.vector(traction),
+                side: self.side(*side),
+            },
+            LoadKind::Pressure { pressure, side } => LoadKind::Pressure {
+                pressure: *pressure,
+                side: self.side(*side),
+            },
+            LoadKind::Acceleration(field) => {
+                let image = field.iter().enumerate();
+                let image = image.map(|(a, formula)| self.component(a, formula));
+                LoadKind::Acceleration(image.collect::<Option<_>>()?)
+            }
+        })
+    }
+}
+
+fn is_symmetric(scenario: &Scenario, sets: &[PointSet], axis: usize) -> bool {
+    let mirror = Mirror::new(&scenario.grid, axis);
+    let boundary_has_image = |spec: &BoundarySpec| {
+        let (on, condition) = (mirror.region(&spec.on), mirror.condition(&spec.condition));
+        scenario.boundaries.iter().any(|other| {
+            mirror.same_region(&other.on, &on) && Some(&other.condition) == condition.as_ref()
+        })
+    };
+    let load_has_image = |spec: &LoadSpec| {
+        let (on, kind) = (mirror.region(&spec.on), mirror.load(&spec.kind));
+        scenario.loads.iter().any(|other| {
+            other.body == spec.body
+                && other.factor == spec.factor
+                && mirror.same_region(&other.on, &on)
+                && Some(&other.kind) == kind.as_ref()
+        })
+    };
+    // a cell that the plane cuts would have to be halved
+    scenario.grid.cells[axis] % 2 == 0
+        && scenario.gravity[axis] == 0.0
+        && scenario.boundaries.iter().all(boundary_has_image)
+        && scenario.loads.iter().all(load_has_image)
+        && scenario
+            .bodies
+            .iter()
+            .zip(sets)
+            .all(|(body, points)| body_is_symmetric(&mirror, body, points))
+}
+
+/// Whether every point has an image that moves as its mirror image does, and none lies on the plane.
+fn body_is_symmetric(mirror: &Mirror, body: &BodySpec, points: &PointSet) -> bool {
+    let axis = mirror.axis;
+    let velocity = |position: [f64; 3]| -> Vec<f64> {
+        let at = Variables {
+            position,
+            time: 0.0,
+        };
+        body.velocity.iter().map(|v| v.value(&at)).collect()
+    };
+    let Some(sorted) = along(points, axis) else {
+        return false;
+    };
+    let fastest = sorted.iter().flat_map(|at| velocity(*at));
+    let fastest = fastest.fold(0.0, |most: f64, v| most.max(v.abs()));
+    sorted.chunk_by(|p, q| aligned(axis, p, q)).all(|line| {
+        line.len() % 2 == 0
+            && line.iter().zip(line.iter().rev()).all(|(p, q)| {
+                let image = mirror.vector(&velocity(*q));
+                let moves = velocity(*p).iter().zip(&image).all(|(v, w)| {
+                    // false too if a formula is not defined there
+                    (v - w).abs() <= 1e-9 * fastest
+                });
+                same(p[axis], mirror.place(q[axis]), mirror.grid) && moves
+            })
+    })
+}
