@@ -64,7 +64,12 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
     });
     let mut findings = Findings::new("critical Courant number c dt/h", Sense::AtLeast, 1.0);
     for ((method, place), (predicted, measured)) in jobs.iter().zip(&edges) {
-        findings.push(method.within_frame(), at(*place), Some(*predicted), *measured);
+        findings.push(
+            method.within_frame(),
+            at(*place),
+            Some(*predicted),
+            *measured,
+        );
     }
     let measured = |method: &Method, place: Place| {
         let row = findings.row(&method.within_frame(), &at(place));
@@ -81,7 +86,11 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
     let said = several.iter().enumerate().map(|(i, place)| {
         let of = ratios.iter().map(|row| row[i]);
         let (least, most) = of.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
-        format!("{least:.2} to {most:.2} of 1D in {} (1/sqrt(d) = {:.2})", at(*place), (place.0 as f64).powf(-0.5))
+        format!(
+            "{least:.2} to {most:.2} of 1D in {} (1/sqrt(d) = {:.2})",
+            at(*place),
+            (place.0 as f64).powf(-0.5)
+        )
     });
     findings.shown = format!(
         "The step is {}. {} of {} edges lie below 1. Measured and predicted edges differ by {:.1} % at most.",
@@ -104,7 +113,9 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
     };
     let rows: Vec<String> = methods.iter().map(Method::within_frame).collect();
     let chart = ZoneChart {
-        title: "Longest stable time step of an elastic block at rest, c the speed of pressure waves".into(),
+        title:
+            "Longest stable time step of an elastic block at rest, c the speed of pressure waves"
+                .into(),
         x_label: "c Δt/h".into(),
         x_range: [0.0, 3.6],
         x_log: false,
@@ -216,7 +227,8 @@ impl<const D: usize> Block<D> {
             }
             if total {
                 p.deformation_gradient[row] = crate::math::Matrix::identity();
-                p.first_piola_stress[row] = crate::math::unpack(&p.stress[row * packed..][..packed]);
+                p.first_piola_stress[row] =
+                    crate::math::unpack(&p.stress[row * packed..][..packed]);
             }
         }
     }
@@ -250,7 +262,13 @@ fn noise_grows<const D: usize>(method: Method, points: u32, offset: f64, dt: f64
     let Ok(mut block) = Block::<D>::new(method, points, cells, 1, offset) else {
         return true;
     };
-    block.set(|id, number| if number < D { 1e-9 * noise(id * D + number) } else { 0.0 });
+    block.set(|id, number| {
+        if number < D {
+            1e-9 * noise(id * D + number)
+        } else {
+            0.0
+        }
+    });
     let start = block.size();
     for step in 0..STEPS {
         if block.solver.step(&mut block.state, dt).is_err() {
@@ -277,7 +295,8 @@ fn predicted<const D: usize>(method: Method, points: u32, offset: f64) -> f64 {
     let Ok(mut block) = Block::<D>::new(method, points, cells, 0, offset) else {
         return f64::NAN;
     };
-    let answers = [0.5, 1.0, 1.5].map(|dt| Answers::of(&mut block, points as usize, cells as usize, dt));
+    let answers =
+        [0.5, 1.0, 1.5].map(|dt| Answers::of(&mut block, points as usize, cells as usize, dt));
     let [Ok(a), Ok(b), Ok(c)] = answers else {
         return f64::NAN;
     };
@@ -362,7 +381,9 @@ impl<const D: usize> Answers<D> {
         let blocks = blocks.map(|(cell, matrix)| (away(cell), matrix));
         Ok(Self {
             size,
-            blocks: blocks.filter(|(_, matrix)| matrix.iter().any(|x| *x != 0.0)).collect(),
+            blocks: blocks
+                .filter(|(_, matrix)| matrix.iter().any(|x| *x != 0.0))
+                .collect(),
         })
     }
 
@@ -377,7 +398,13 @@ impl<const D: usize> Answers<D> {
     }
 }
 
-fn scenario<const D: usize>(method: Method, points: u32, cells: u32, held: u32, offset: f64) -> Scenario {
+fn scenario<const D: usize>(
+    method: Method,
+    points: u32,
+    cells: u32,
+    held: u32,
+    offset: f64,
+) -> Scenario {
     let vector = |x: f64| format!("{:?}", [x; D]);
     let (from, end) = (f64::from(MARGIN), f64::from(MARGIN + cells));
     let mut sides = String::new();
@@ -389,7 +416,9 @@ fn scenario<const D: usize>(method: Method, points: u32, cells: u32, held: u32, 
             } else {
                 max[axis] = from + f64::from(held);
             }
-            sides += &format!("[[boundary]]\nname = \"side{axis}{upper}\"\non.box = {{ min = {min:?}, max = {max:?} }}\ncondition = \"fixed\"\n");
+            sides += &format!(
+                "[[boundary]]\nname = \"side{axis}{upper}\"\non.box = {{ min = {min:?}, max = {max:?} }}\ncondition = \"fixed\"\n"
+            );
         }
     }
     if held == 0 {

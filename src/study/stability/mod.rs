@@ -53,6 +53,7 @@ failures! {
     dissipation,
     galilei,
     spin,
+    vortex,
     locking,
     jaumann,
     walls,

@@ -50,9 +50,15 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
         let found = TAU * frequency_near(&time, &breath, omega / TAU);
         errors.push(found / omega - 1.0);
         if cell == sizes[2] {
-            let exact: Vec<f64> = time.iter().map(|t| SPEED / omega * (omega * t).sin()).collect();
+            let exact: Vec<f64> = time
+                .iter()
+                .map(|t| SPEED / omega * (omega * t).sin())
+                .collect();
             let micro = |values: &[f64]| values.iter().map(|x| 1e6 * x).collect::<Vec<_>>();
-            report.table("breath", &[("time", &time), ("computed", &breath), ("exact", &exact)]);
+            report.table(
+                "breath",
+                &[("time", &time), ("computed", &breath), ("exact", &exact)],
+            );
             panels.push(chart(
                 "Mean outward displacement",
                 "time (s)",
@@ -62,9 +68,19 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
                     curve("exact frequency", &time, &micro(&exact), Style::Dashed),
                 ],
             ));
-            let wrong: Vec<f64> = breath.iter().zip(&exact).map(|(a, b)| (a - b).abs()).collect();
-            let worst = wrong.iter().fold(0.0, |most: f64, x| if *x <= most { most } else { *x });
-            report.at_most("16 cells over the wall: largest error of the displacement / amplitude", worst / (SPEED / omega), 0.1);
+            let wrong: Vec<f64> = breath
+                .iter()
+                .zip(&exact)
+                .map(|(a, b)| (a - b).abs())
+                .collect();
+            let worst = wrong
+                .iter()
+                .fold(0.0, |most: f64, x| if *x <= most { most } else { *x });
+            report.at_most(
+                "16 cells over the wall: largest error of the displacement / amplitude",
+                worst / (SPEED / omega),
+                0.1,
+            );
         }
     }
     for ((cell, limit), error) in sizes.iter().zip([0.02, 0.01, 0.005]).zip(&errors) {
@@ -83,7 +99,12 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
         "cell size (m)",
         "error, relative",
         vec![
-            curve("quadratic FLIP, lattice cut at the rims", &sizes, &errors, Style::LineMarkers),
+            curve(
+                "quadratic FLIP, lattice cut at the rims",
+                &sizes,
+                &errors,
+                Style::LineMarkers,
+            ),
             curve("first order", &sizes, &slope, Style::Dashed),
         ],
     );
@@ -121,12 +142,8 @@ fn traction(omega: f64) -> f64 {
     let stiffness = lambda + 2.0 * shear;
     let [inner, outer] = RIMS;
     let dr = (outer - inner) / STEPS as f64;
-    let slope = |r: f64, [u, du]: [f64; 2]| {
-        [
-            du,
-            u / (r * r) - du / r - omega * omega / stiffness * u,
-        ]
-    };
+    let slope =
+        |r: f64, [u, du]: [f64; 2]| [du, u / (r * r) - du / r - omega * omega / stiffness * u];
     let plus = |x: [f64; 2], k: [f64; 2], share: f64| [x[0] + share * k[0], x[1] + share * k[1]];
     let mut x = [1.0, -lambda / stiffness / inner];
     for step in 0..STEPS {
@@ -135,9 +152,8 @@ fn traction(omega: f64) -> f64 {
         let k2 = slope(r + 0.5 * dr, plus(x, k1, 0.5 * dr));
         let k3 = slope(r + 0.5 * dr, plus(x, k2, 0.5 * dr));
         let k4 = slope(r + dr, plus(x, k3, dr));
-        for i in 0..2 {
-            x[i] += dr / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
-        }
+        let next = |i: usize| x[i] + dr / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+        x = std::array::from_fn(next);
     }
     stiffness * x[1] + lambda * x[0] / outer
 }

@@ -31,17 +31,43 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     for ((ratio, _), share) in REFERENCE.iter().zip(&reached[0]) {
         report.close(format!("quadratic, 4 cells over the height, Poisson's ratio {ratio}: deflection / reference"), *share, 1.0, 0.03);
     }
-    report.close("linear, 4 cells over the height, Poisson's ratio 0.3: deflection / reference", reached[1][0], 0.98, 0.02);
-    report.at_most("linear, 4 cells over the height, Poisson's ratio 0.499: locks, deflection / reference", reached[1][2], 0.25);
+    report.close(
+        "linear, 4 cells over the height, Poisson's ratio 0.3: deflection / reference",
+        reached[1][0],
+        0.98,
+        0.02,
+    );
+    report.at_most(
+        "linear, 4 cells over the height, Poisson's ratio 0.499: locks, deflection / reference",
+        reached[1][2],
+        0.25,
+    );
     let fine = rest(report, "quadratic", 0.125, 0.3)? / (LOAD * REFERENCE[0].1);
-    report.close("quadratic, 8 cells over the height, Poisson's ratio 0.3: deflection / reference", fine, 1.0, 0.01);
+    report.close(
+        "quadratic, 8 cells over the height, Poisson's ratio 0.3: deflection / reference",
+        fine,
+        1.0,
+        0.01,
+    );
     let ratios = REFERENCE.map(|(ratio, _)| ratio);
-    report.table("deflection", &[("poissons_ratio", &ratios), ("quadratic", &reached[0]), ("linear", &reached[1])]);
-    let mut panel = chart("Deflection of a clamped beam under an end load, 16 × 4 cells of 2 × 2 points", "Poisson's ratio", "deflection / reference", vec![
-        curve("quadratic", &ratios, &reached[0], Style::LineMarkers),
-        curve("linear", &ratios, &reached[1], Style::LineMarkers),
-        curve("finite elements", &ratios, &[1.0; 3], Style::Dashed),
-    ]);
+    report.table(
+        "deflection",
+        &[
+            ("poissons_ratio", &ratios),
+            ("quadratic", &reached[0]),
+            ("linear", &reached[1]),
+        ],
+    );
+    let mut panel = chart(
+        "Deflection of a clamped beam under an end load, 16 × 4 cells of 2 × 2 points",
+        "Poisson's ratio",
+        "deflection / reference",
+        vec![
+            curve("quadratic", &ratios, &reached[0], Style::LineMarkers),
+            curve("linear", &ratios, &reached[1], Style::LineMarkers),
+            curve("finite elements", &ratios, &[1.0; 3], Style::Dashed),
+        ],
+    );
     panel.y_range = Some([0.0, 1.2]);
     report.chart("deflection", vec![panel]);
     Ok(())

@@ -64,7 +64,8 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
                 limit,
             );
             if frame == "total" {
-                let sparse = |values: &[f64]| values.iter().step_by(20).copied().collect::<Vec<_>>();
+                let sparse =
+                    |values: &[f64]| values.iter().step_by(20).copied().collect::<Vec<_>>();
                 let computed = curve(law, &sparse(&gamma), &sparse(&across), Style::Markers);
                 shear.push(computed);
                 let mut exact = curve("", &gamma, &pick(0), Style::Dashed);
