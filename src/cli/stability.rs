@@ -36,6 +36,9 @@ pub struct StabilityArguments {
     /// Only these updates
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     update: Vec<String>,
+    /// Only these frames [default: updated,total, where the frame matters]
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    frame: Vec<String>,
     /// Points per cell and axis, where a case leaves them open; cases that map something else take the first
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=8))]
     points: Vec<u32>,
@@ -183,10 +186,11 @@ fn choose(names: &[String]) -> Result<Vec<&'static Failure>, ExitCode> {
 fn methods(arguments: &StabilityArguments) -> Result<Vec<Method>, ExitCode> {
     let mut methods = Method::all();
     type Limit<'a> = (&'a str, &'a [String], fn(&Method) -> &'static str);
-    let limits: [Limit<'_>; 3] = [
+    let limits: [Limit<'_>; 4] = [
         ("basis", &arguments.basis, |m| m.basis),
         ("transfer", &arguments.transfer, |m| m.transfer),
         ("update", &arguments.update, |m| m.update),
+        ("frame", &arguments.frame, |m| m.frame),
     ];
     for (kind, wanted, of) in limits {
         let mut known: Vec<&str> = Method::all().iter().map(of).collect();

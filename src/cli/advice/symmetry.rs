@@ -14,9 +14,8 @@ pub fn advise(subject: &Subject) -> Vec<Advice> {
     let uniform = uniform_axes(subject);
     let dimension = scenario.dimension;
     let symmetric = (0..dimension).filter(|axis| {
-        !uniform.contains(axis)
-            && !(*axis == 0 && scenario.plane == Plane::Axisymmetric)
-            && is_symmetric(scenario, sets, *axis)
+        let is_radius = *axis == 0 && scenario.plane == Plane::Axisymmetric;
+        !uniform.contains(axis) && !is_radius && is_symmetric(scenario, sets, *axis)
     });
     symmetric.map(|axis| advice(scenario, axis)).collect()
 }

@@ -136,6 +136,7 @@ impl Specimen {
 
     /// Puts every point back to its place, with what `point` says it holds.
     pub fn set(&mut self, point: impl Fn(usize) -> Point) {
+        let stretch = self.stretch;
         let p = &mut self.state.bodies[0].particles;
         for row in 0..p.len() {
             let id = p.id[row] as usize;
@@ -148,6 +149,10 @@ impl Specimen {
             p.stress[row] = stress;
             if let Some(field) = p.affine.get_mut(row) {
                 field[(0, 0)] = affine;
+            }
+            if p.is_total() {
+                p.deformation_gradient[row][(0, 0)] = stretch;
+                p.first_piola_stress[row][(0, 0)] = stress / stretch;
             }
         }
     }

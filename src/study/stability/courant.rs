@@ -57,7 +57,12 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
         findings.rows.len(),
         100.0 * findings.worst_deviation()
     );
-    findings.drawings.push(("", draw(study, &points, &edges)));
+    let edges: Vec<_> = jobs.iter().zip(&edges).collect();
+    for (name, frame, methods) in study.frames() {
+        let of = edges.iter().filter(|(job, _)| methods.contains(&job.0));
+        let of: Vec<Edge> = of.map(|(_, edge)| **edge).collect();
+        findings.drawings.push((name, draw(&methods, frame, &points, &of)));
+    }
     Ok(findings)
 }
 
@@ -101,7 +106,10 @@ fn measured(method: Method, points: u32, offset: f64) -> f64 {
     })
 }
 
-fn draw(study: &Study, points: &[u32], edges: &[(f64, f64, f64)]) -> Drawing {
+/// Predicted, measured, and at which place of the points in their cells.
+type Edge = (f64, f64, f64);
+
+fn draw(methods: &[Method], frame: &str, points: &[u32], edges: &[Edge]) -> Drawing {
     let panel = |column: usize| {
         let of = edges.iter().skip(column).step_by(points.len());
         ZonePanel {
@@ -114,14 +122,14 @@ fn draw(study: &Study, points: &[u32], edges: &[(f64, f64, f64)]) -> Drawing {
         }
     };
     Drawing::Zones(ZoneChart {
-        title: "Longest stable time step of an elastic bar at rest, points at their worst place in the cell".into(),
+        title: format!("Longest stable time step of an elastic bar at rest, points at their worst place in the cell{frame}"),
         x_label: "Courant number c Δt/h".into(),
         x_range: [0.0, 3.2],
         x_log: false,
         holds: "stable".into(),
         fails: "unstable: energy grows 1000-fold".into(),
         predicted: "predicted edge: spectral radius of one step".into(),
-        rows: study.methods.iter().map(Method::to_string).collect(),
+        rows: methods.iter().map(Method::within_frame).collect(),
         panels: (0..points.len()).map(panel).collect(),
     })
 }

@@ -4,7 +4,7 @@
 //! what is left, again once a step. FLIP smooths nothing, but stress update last damps like a Δt.
 
 use super::bar::Bar;
-use super::findings::{Drawing, Findings, Sense};
+use super::findings::{Findings, Sense};
 use super::operator::Response;
 use super::{Failure, Method, Study};
 use crate::report::{HeatCell, HeatMap};
@@ -75,18 +75,15 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
         })
         .collect()
     };
-    findings.drawings.push((
-        "",
-        Drawing::Map(HeatMap {
+    let map = HeatMap {
             title: format!("Energy left of a standing wave after one period: 16 cells a wave, {points} points per cell"),
             x_label: "Courant number c Δt/h".into(),
             holds: "keeps 90 % or more".into(),
             fails: "loses more than a tenth".into(),
             columns: COURANTS.map(|courant| courant.to_string()).into(),
-            rows: study.methods.iter().map(Method::to_string).collect(),
-            cells: study.methods.iter().map(row).collect(),
-        }),
-    ));
+            ..HeatMap::default()
+    };
+    findings.draw_maps(study, &map, row);
     Ok(findings)
 }
 

@@ -1,6 +1,7 @@
 //! What a case found: edges beside their predictions, pictures, and one sentence.
 
-use crate::report::{HeatMap, LineChart, Size, ZoneChart, panels};
+use super::{Method, Study};
+use crate::report::{HeatCell, HeatMap, LineChart, Size, ZoneChart, panels};
 use serde::Serialize;
 use std::io;
 use std::path::Path;
@@ -114,6 +115,24 @@ impl Findings {
             survives: margin >= 1.0,
             margin,
         });
+    }
+
+    /// Draws a map with one row a method, one map a frame; `map` comes without its rows and cells.
+    pub(super) fn draw_maps(
+        &mut self,
+        study: &Study,
+        map: &HeatMap,
+        row: impl Fn(&Method) -> Vec<HeatCell>,
+    ) {
+        for (name, frame, methods) in study.frames() {
+            let drawing = HeatMap {
+                title: format!("{}{frame}", map.title),
+                rows: methods.iter().map(Method::within_frame).collect(),
+                cells: methods.iter().map(&row).collect(),
+                ..map.clone()
+            };
+            self.drawings.push((name, Drawing::Map(drawing)));
+        }
     }
 
     /// How many edges fail.

@@ -3,7 +3,7 @@
 //! together.
 
 use super::bar::Bar;
-use super::findings::{Drawing, Findings, Sense};
+use super::findings::{Findings, Sense};
 use super::{Failure, Method, Study};
 use crate::report::{HeatCell, HeatMap};
 use crate::study::validate::CaseError;
@@ -54,9 +54,10 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
         findings.rows.len(),
         failing("linear")
     );
-    let row = |changes: &[f64; 4]| {
-        changes
-            .iter()
+    let row = |method: &Method| {
+        let of = study.methods.iter().zip(&changes);
+        of.filter(|(other, _)| *other == method)
+            .flat_map(|(_, changes)| changes)
             .map(|change| HeatCell {
                 text: if change.is_finite() {
                     format!("{change:.3}")
@@ -68,18 +69,15 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
             })
             .collect()
     };
-    findings.drawings.push((
-        "",
-        Drawing::Map(HeatMap {
+    let map = HeatMap {
             title: format!("Velocities of a drifting, vibrating bar against those at rest, {points} points per cell, c Δt/h = 0.4"),
             x_label: "drift velocity / wave speed c".into(),
             holds: "as at rest, to a tenth of the amplitude".into(),
             fails: "differs (rms difference / amplitude is written in each cell)".into(),
             columns: SPEEDS.map(|speed| speed.to_string()).into(),
-            rows: study.methods.iter().map(Method::to_string).collect(),
-            cells: changes.iter().map(row).collect(),
-        }),
-    ));
+            ..HeatMap::default()
+    };
+    findings.draw_maps(study, &map, row);
     Ok(findings)
 }
 

@@ -1,11 +1,11 @@
 //! The methods that a study goes through, by their names in a scenario.
 
 use crate::basis::BasisChoice;
-use crate::scenario::Scheme;
+use crate::scenario::{ReferenceFrame, Scheme};
 use crate::transfer::TransferChoice;
 use serde::Serialize;
 
-/// A basis, a transfer and an update, each with its default parameters.
+/// A basis, a transfer, an update and a frame, each with its default parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Method {
     /// Shape functions.
@@ -14,20 +14,25 @@ pub struct Method {
     pub transfer: &'static str,
     /// When stresses are updated.
     pub update: &'static str,
+    /// Whether shape functions are those of the present or of the initial positions.
+    pub frame: &'static str,
 }
 
 impl Method {
-    /// Every combination of what is registered.
+    /// Every combination of what is registered, those of the updated frame first.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
-        for &basis in BasisChoice::NAMES {
-            for &transfer in TransferChoice::NAMES {
-                for update in Scheme::ALL.map(|scheme| scheme.name()) {
-                    all.push(Self {
-                        basis,
-                        transfer,
-                        update,
-                    });
+        for frame in ReferenceFrame::NAMES {
+            for &basis in BasisChoice::NAMES {
+                for &transfer in TransferChoice::NAMES {
+                    for update in Scheme::ALL.map(|scheme| scheme.name()) {
+                        all.push(Self {
+                            basis,
+                            transfer,
+                            update,
+                            frame,
+                        });
+                    }
                 }
             }
         }
@@ -40,10 +45,21 @@ impl Method {
             basis,
             transfer,
             update,
+            frame,
         } = self;
         format!(
-            "method = {{ basis = \"{basis}\", transfer = \"{transfer}\", update = \"{update}\" }}\n"
+            "method = {{ basis = \"{basis}\", transfer = \"{transfer}\", update = \"{update}\", frame = \"{frame}\" }}\n"
         )
+    }
+
+    /// Whether shape functions are those of the initial positions.
+    pub fn is_total(&self) -> bool {
+        self.frame == "total"
+    }
+
+    /// Basis, transfer and update: what tells methods of one frame apart.
+    pub fn within_frame(&self) -> String {
+        format!("{} {} {}", self.basis, self.transfer, self.update)
     }
 
     /// Whether points carry an affine field.
@@ -56,6 +72,10 @@ impl Method {
 
 impl std::fmt::Display for Method {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} {} {}", self.basis, self.transfer, self.update)
+        f.write_str(&self.within_frame())?;
+        if self.is_total() {
+            write!(f, ", {} frame", self.frame)?;
+        }
+        Ok(())
     }
 }

@@ -43,6 +43,7 @@ macro_rules! failures {
 
 failures! {
     courant,
+    block,
     point,
     small_mass,
     drift,
@@ -53,6 +54,7 @@ failures! {
     dissipation,
     galilei,
     spin,
+    vortex,
     locking,
     jaumann,
     walls,
@@ -96,5 +98,30 @@ impl Study<'_> {
     fn with_points(&self, points: &[u32]) -> Vec<(Method, u32)> {
         let of = |method: &Method| points.iter().map(|n| (*method, *n)).collect::<Vec<_>>();
         self.methods.iter().flat_map(of).collect()
+    }
+
+    /// The methods of each frame that is asked for, with the ending of their pictures' names and of their titles.
+    fn frames(&self) -> Vec<(&'static str, &'static str, Vec<Method>)> {
+        [("", ""), ("total", " (total frame)")]
+            .into_iter()
+            .map(|(name, title)| {
+                let of = self.methods.iter().copied();
+                let of = of.filter(|method| method.is_total() == (name == "total"));
+                (name, title, of.collect())
+            })
+            .filter(|(_, _, methods): &(_, _, Vec<Method>)| !methods.is_empty())
+            .collect()
+    }
+
+    /// The methods, but those that differ in their frame only once: for what no frame can change.
+    fn whatever_frame(&self) -> Vec<Method> {
+        let mut once: Vec<Method> = Vec::new();
+        for method in &self.methods {
+            let same = |other: &Method| other.within_frame() == method.within_frame();
+            if !once.iter().any(same) {
+                once.push(*method);
+            }
+        }
+        once
     }
 }

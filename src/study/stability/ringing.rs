@@ -6,7 +6,7 @@
 //! it.
 
 use super::bar::Bar;
-use super::findings::{Drawing, Findings, Sense};
+use super::findings::{Findings, Sense};
 use super::operator::Response;
 use super::{Failure, Method, Study};
 use crate::report::{HeatCell, HeatMap};
@@ -74,18 +74,15 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
         .collect()
     };
     let column = |n: &u32| WHAT.map(|what| format!("{what}, {n} points per cell"));
-    findings.drawings.push((
-        "",
-        Drawing::Map(HeatMap {
+    let map = HeatMap {
             title: "Share of the energy of alternating noise that is left after 10 steps, c Δt/h = 0.3".into(),
             x_label: "what alternates from point to point".into(),
             holds: "gone: below 1 %".into(),
             fails: "stays".into(),
             columns: points.iter().flat_map(column).collect(),
-            rows: study.methods.iter().map(Method::to_string).collect(),
-            cells: study.methods.iter().map(row).collect(),
-        }),
-    ));
+            ..HeatMap::default()
+    };
+    findings.draw_maps(study, &map, row);
     Ok(findings)
 }
 

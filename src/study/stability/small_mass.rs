@@ -28,7 +28,9 @@ const LIMIT: f64 = 0.3;
 fn run(study: &Study) -> Result<Findings, CaseError> {
     let points = study.points_or(&[2])[0];
     let mut jobs = Vec::new();
-    for method in &study.methods {
+    // nothing moves but by round-off: the frames do the same
+    let methods = study.whatever_frame();
+    for method in &methods {
         jobs.extend(DEPTHS.map(|depth| (*method, depth)));
     }
     let edges = study.map(&jobs, |(method, depth)| {
@@ -68,8 +70,8 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
             holds: "stable at Courant number 0.3".into(),
             fails: "unstable at 0.3 (the critical Courant number is written in each cell)".into(),
             columns: DEPTHS.map(|depth| depth.to_string()).into(),
-            rows: study.methods.iter().map(Method::to_string).collect(),
-            cells: study.methods.iter().map(row).collect(),
+            rows: methods.iter().map(Method::within_frame).collect(),
+            cells: methods.iter().map(row).collect(),
         }),
     ));
     Ok(findings)

@@ -26,14 +26,21 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
         findings.push(method, "one turn", predicted, fate.turns());
     }
     findings.shown = format!(
-        "{} of {} methods fail within one turn; the survivors carry the affine field of the velocity and are stable.",
+        "{} of {} methods fail within one turn; in the updated frame the survivors carry the affine field of the velocity and are stable.",
         findings.failing(),
         findings.rows.len()
     );
-    // rows: basis and transfer; columns: updates
+    for (name, frame, methods) in study.frames() {
+        findings.drawings.push((name, draw(study, frame, &methods, &found)));
+    }
+    Ok(findings)
+}
+
+/// Rows: basis and transfer; columns: updates.
+fn draw(study: &Study, frame: &str, methods: &[Method], found: &[Fate]) -> Drawing {
     let updates = crate::scenario::Scheme::ALL.map(|scheme| scheme.name());
     let mut rows: Vec<String> = Vec::new();
-    for method in &study.methods {
+    for method in methods {
         let name = format!("{} {}", method.basis, method.transfer);
         if !rows.contains(&name) {
             rows.push(name);
@@ -41,33 +48,27 @@ fn run(study: &Study) -> Result<Findings, CaseError> {
     }
     let shown: Vec<&str> = updates
         .into_iter()
-        .filter(|update| study.methods.iter().any(|m| m.update == *update))
+        .filter(|update| methods.iter().any(|m| m.update == *update))
         .collect();
     let cell = |name: &String, update: &str| {
-        let of = study.methods.iter().zip(&found);
-        let mut of = of.filter(|(m, _)| {
-            format!("{} {}", m.basis, m.transfer) == *name && m.update == update
-        });
-        of.next()
+        let of = study.methods.iter().zip(found);
+        let mut of = of.filter(|(m, _)| methods.contains(m));
+        of.find(|(m, _)| format!("{} {}", m.basis, m.transfer) == *name && m.update == update)
             .map_or_else(HeatCell::default, |(_, fate)| fate.cell())
     };
     let cells = rows
         .iter()
         .map(|name| shown.iter().map(|update| cell(name, update)).collect())
         .collect();
-    findings.drawings.push((
-        "",
-        Drawing::Map(HeatMap {
-            title: "Angular momentum of a disc that turns freely: radius 5 cells, 2 × 2 points per cell".into(),
+    Drawing::Map(HeatMap {
+            title: format!("Angular momentum of a disc that turns freely: radius 5 cells, 2 × 2 points per cell{frame}"),
             x_label: "stress update".into(),
             holds: "within 1 % for a turn".into(),
             fails: "angular momentum or energy changes, or points are lost".into(),
             columns: shown.iter().map(|name| name.to_string()).collect(),
             rows,
             cells,
-        }),
-    ));
-    Ok(findings)
+    })
 }
 
 /// What becomes of a disc: turns until something happens, infinite if it does not.
@@ -120,6 +121,7 @@ fn turn(method: Method) -> Fate {
         ("method.basis", &quoted(method.basis)),
         ("method.transfer", &quoted(method.transfer)),
         ("method.update", &quoted(method.update)),
+        ("method.frame", &quoted(method.frame)),
         ("time.end", &format!("{PI}")),
         ("output.every", "0.01"),
     ]);

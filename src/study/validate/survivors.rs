@@ -17,6 +17,7 @@ const DEFAULT: Method = Method {
     basis: "quadratic",
     transfer: "apic",
     update: "usl",
+    frame: "updated",
 };
 
 /// A name in the catalogue, and what of it is asked for.
