@@ -95,7 +95,10 @@ pub trait Basis<const N: usize>: Copy + Send + Sync + 'static {
 
     /// Whether changes of volume are those at the middle of the cell (B̄), for functions that lock otherwise: then stencils are the
     /// nodes of one cell.
-    const DILATION_AT_CENTRE: bool = false;
+    #[inline(always)]
+    fn dilation_at_centre(&self) -> bool {
+        false
+    }
 
     /// How many functions (nodes) an axis of `cells` cells has.
     fn count(&self, cells: i32) -> i32;
@@ -178,7 +181,6 @@ macro_rules! bases {
 
 bases! {
     "linear" => linear::Linear with 2 nodes,
-    "linear_bbar" => linear_bbar::LinearBBar with 2 nodes,
     "gimp" => gimp::Gimp with 3 nodes,
     "quadratic" => quadratic::QuadraticBSpline with 3 nodes,
     "cubic" => cubic::CubicBSpline with 4 nodes,

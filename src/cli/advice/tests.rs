@@ -270,7 +270,8 @@ fn a_motion_of_a_small_part_of_a_cell_needs_no_moving_functions() {
     let bare = "boundary=[]";
     // something may come to a wall later
     assert_eq!(of("small_motion", BLOCK, &[short]), None);
-    let found = of("small_motion", BLOCK, &[short, bare]).expect("advice");
+    let moving = "method.basis=\"quadratic\"";
+    let found = of("small_motion", BLOCK, &[short, bare, moving]).expect("advice");
     // 9 nodes a point, or 4 and the turning of tensors
     let expected = (160.0 + 26.0 * 9.0) / (160.0 + 26.0 * 4.0 + 26.0);
     assert_eq!(found.factor, Some(expected));

@@ -192,10 +192,7 @@ pub(super) fn method(root: &mut Reader<'_>) -> Option<GivenMethod> {
 
 /// Warns of a method that is known to blow up.
 pub(super) fn warn_of_method(method: &Method, warnings: &mut Vec<String>) {
-    let jumps = matches!(
-        method.basis,
-        BasisChoice::Linear(_) | BasisChoice::LinearBBar(_)
-    );
+    let jumps = matches!(method.basis, BasisChoice::Linear(_));
     let stable = method.update != Scheme::UpdateStressLast && !method.transfer.is_affine();
     // points that stay where they are in the grid cross no cells
     if jumps && !stable && method.frame == ReferenceFrame::Updated {
@@ -251,6 +248,16 @@ fn choices(reader: &mut Reader<'_>) -> Option<GivenMethod> {
     } else {
         None
     };
+    let total = matches!(frame, Some(Some("total")));
+    if let Some(Some(BasisChoice::Linear(linear))) = basis
+        && linear.b_bar
+        && !total
+    {
+        reader.problem(
+            "basis.linear.b_bar",
+            "a point that comes into a cell would push at nodes that have none of its mass; add frame = \"total\", or take basis = \"quadratic\", which does not lock",
+        );
+    }
     let update = match update? {
         "usf" => Scheme::UpdateStressFirst,
         "usl" => Scheme::UpdateStressLast,

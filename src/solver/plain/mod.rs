@@ -98,7 +98,9 @@ fn known<const D: usize, const N: usize, B: Basis<N>>(
                 weight: product(&axes, D),
                 gradient: Vector::from_fn(|a, _| product(&axes, a)),
                 fitted: Vector::zeros(),
-                middle: B::DILATION_AT_CENTRE.then(|| Vector::from_fn(|a, _| product(&middle, a))),
+                middle: basis[0]
+                    .dilation_at_centre()
+                    .then(|| Vector::from_fn(|a, _| product(&middle, a))),
             }
         })
         .collect();

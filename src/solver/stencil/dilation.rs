@@ -1,4 +1,4 @@
-//! Changes of volume that are taken at the middle of the cell: `Basis::DILATION_AT_CENTRE`.
+//! Changes of volume that are taken at the middle of the cell: `Basis::dilation_at_centre`.
 
 use super::group::Group;
 use super::nodes::{Gift, Stencil, gather_linear, scatter_gift, without_absent};
@@ -11,14 +11,19 @@ use crate::solver::lane::Lane;
 use crate::tensor::Tensor;
 
 /// The functions at the middle of a cell, and the nodes of those in which four points are.
-pub(super) struct Centre<const D: usize, const N: usize>(Group<D, N>);
+pub(super) struct Centre<const D: usize, const N: usize> {
+    group: Group<D, N>,
+    /// Whether the basis wants any of this.
+    pub used: bool,
+}
 
 impl<const D: usize, const N: usize> Centre<D, N> {
     /// The middle of no cell yet.
     #[inline(always)]
     pub(super) fn new<B: Basis<N>, T>(pass: &Pass<D, B, T>) -> Self {
         let mut group = Group::new();
-        if B::DILATION_AT_CENTRE {
+        let used = D > 1 && pass.basis[0].dilation_at_centre();
+        if used {
             for a in 0..D {
                 let middle = pass.basis[a].functions(Portable([0.5; 4]));
                 for i in 0..N {
@@ -27,18 +32,18 @@ impl<const D: usize, const N: usize> Centre<D, N> {
                 }
             }
         }
-        Self(group)
+        Self { group, used }
     }
 
     /// The middles of the cells in which these points are.
     #[inline(always)]
     pub(super) fn set(&mut self, points: &Group<D, N>) {
-        (self.0.row, self.0.node) = (points.row, points.node);
+        (self.group.row, self.group.node) = (points.row, points.node);
     }
 
     fn stencil<'a>(&'a self, tile: &'a Tile<D>, q: usize) -> Stencil<'a, D, N> {
         Stencil {
-            group: &self.0,
+            group: &self.group,
             tile,
             q,
         }
@@ -62,7 +67,7 @@ impl<const D: usize, const N: usize> Centre<D, N> {
         // SAFETY: as the caller says; the middle of a cell has the nodes that the points in it have
         unsafe {
             let (value, [mut middle]) =
-                gather_linear::<L, D, N, 1>(velocities, &s, [&self.0.slope]);
+                gather_linear::<L, D, N, 1>(velocities, &s, [&self.group.slope]);
             without_absent(value, &mut middle);
             let (f, inverse) = volume_change::<L, D>(columns, p);
             let mut difference = [L::splat(0.0); D];
@@ -105,7 +110,7 @@ impl<const D: usize, const N: usize> Centre<D, N> {
                 let pressure = inverse[a] * mean;
                 pull[a] = pull[a] - pressure;
                 for i in 0..N {
-                    gift.slant[a][i] = pressure * L::splat(self.0.slope[a][i].0[q]);
+                    gift.slant[a][i] = pressure * L::splat(self.group.slope[a][i].0[q]);
                 }
             }
             scatter_gift::<L, D, N, false, true>(nodes, nodes, &s, &gift);

@@ -132,7 +132,7 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
         let place = unsafe { columns.places::<L>(first, count) };
         columns.prefetch::<L>(first, T::AFFINE && what.velocity, false);
         group.set::<L, B, T>(pass, tile, &place, needs);
-        if B::DILATION_AT_CENTRE {
+        if centre.used {
             centre.set(&group);
         }
         // where the two are one column, it is read once
@@ -316,7 +316,7 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
                 if what.velocity && T::AFFINE && !alike {
                     let (value, [gradient, columns_of_c]) =
                         gathered::<L, D, N, B, 2>(sources.main, &s, [slope, own]);
-                    book::<L, D, N, B>(
+                    book::<L, D, N>(
                         &mut gradients,
                         columns,
                         centre,
@@ -330,7 +330,7 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
                     new[q] = value;
                 } else {
                     let (value, [gradient]) = gathered::<L, D, N, B, 1>(sources.main, &s, [slope]);
-                    book::<L, D, N, B>(
+                    book::<L, D, N>(
                         &mut gradients,
                         columns,
                         centre,
@@ -350,7 +350,7 @@ unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
                 if what.rate {
                     let (value, [gradient]) =
                         gathered::<L, D, N, B, 1>(sources.second, &s, [slope]);
-                    book::<L, D, N, B>(
+                    book::<L, D, N>(
                         &mut gradients,
                         columns,
                         centre,
@@ -434,7 +434,7 @@ unsafe fn set_affine<L: Lane, const D: usize>(
 /// Books the gradient of the `q`th of the points from row `first` on, with the change of volume that its basis wants.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-unsafe fn book<L: Lane, const D: usize, const N: usize, B: Basis<N>>(
+unsafe fn book<L: Lane, const D: usize, const N: usize>(
     gradients: &mut Option<(&mut Rates<D>, usize)>,
     columns: &Columns<D>,
     centre: &Centre<D, N>,
@@ -449,7 +449,7 @@ unsafe fn book<L: Lane, const D: usize, const N: usize, B: Basis<N>>(
             // all four; a cell has one gradient anyway
             return rates.set_line(*at, gradient[0]);
         }
-        if B::DILATION_AT_CENTRE {
+        if centre.used {
             // SAFETY: as the caller says
             unsafe { centre.dilate(columns, tile, first + q, q, velocities, &mut gradient) };
         }

@@ -69,7 +69,7 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
         let place = unsafe { columns.places::<L>(first, count) };
         columns.prefetch::<L>(first, T::AFFINE && what.momentum, what.force);
         group.set::<L, B, T>(pass, &tile, &place, needs);
-        if B::DILATION_AT_CENTRE {
+        if centre.used {
             centre.set(&group);
         }
         if D == 1 {
@@ -165,7 +165,7 @@ pub(super) unsafe fn scatter_point<
         for a in 0..D {
             pull[a] = stress[a] * scales;
         }
-        if B::DILATION_AT_CENTRE {
+        if centre.used {
             let nodes = if T::CHANGE { force } else { main };
             // SAFETY: as the caller says
             unsafe { centre.press(columns, s.tile, p, s.q, nodes, &mut pull) };
