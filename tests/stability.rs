@@ -257,6 +257,25 @@ fn apic_alone_keeps_angular_momentum() {
 }
 
 #[test]
+fn a_twisted_ring_breaks_the_linear_basis_and_a_square_lattice_breaks_the_ring() {
+    let found = run("vortex", &["linear flip usl", "quadratic apic usl"], &[]);
+    let [coarse, fine] = ["circles, cells of 0.1 m", "circles, cells of 0.05 m"];
+    let (_, early, survives) = edge(&found, "linear flip usl", coarse);
+    assert!(!survives);
+    // more cells make it worse
+    assert!(edge(&found, "linear flip usl", fine).1 < early);
+    for cells in [coarse, fine] {
+        assert!(edge(&found, "quadratic apic usl", cells).2);
+    }
+    let (_, time, survives) = edge(
+        &found,
+        "quadratic apic usl",
+        "square lattice, cells of 0.1 m",
+    );
+    assert!(!survives && (0.4..0.7).contains(&time), "{time}");
+}
+
+#[test]
 fn the_linear_basis_locks_and_the_quadratic_one_does_not() {
     let wanted = ["linear flip", "quadratic flip"];
     let found = run("locking", &wanted, &[]);

@@ -36,7 +36,7 @@ pub struct StabilityArguments {
     /// Only these updates
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     update: Vec<String>,
-    /// Only these frames [default: updated,total, where the frame matters]
+    /// Only these frames [default: updated]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     frame: Vec<String>,
     /// Points per cell and axis, where a case leaves them open; cases that map something else take the first
@@ -205,6 +205,9 @@ fn methods(arguments: &StabilityArguments) -> Result<Vec<Method>, ExitCode> {
             return Err(fail(code::INPUT, &message));
         }
         methods.retain(|method| wanted.is_empty() || wanted.iter().any(|name| name == of(method)));
+    }
+    if arguments.frame.is_empty() {
+        methods.retain(|method| !method.is_total());
     }
     Ok(methods)
 }
