@@ -64,9 +64,17 @@ impl Method {
 
     /// Whether points carry an affine field.
     pub fn is_affine(&self) -> bool {
+        self.choice().is_some_and(|transfer| transfer.is_affine())
+    }
+
+    /// Whether velocities of the grid have more terms than one, each of which reaches farther and brings another power of the step.
+    pub fn has_terms(&self) -> bool {
+        self.choice().is_some_and(|transfer| transfer.terms() > 1)
+    }
+
+    fn choice(&self) -> Option<TransferChoice> {
         let empty = crate::input::Document::parse("", &[]);
         TransferChoice::read(self.transfer, &mut empty.root())
-            .is_some_and(|transfer| transfer.is_affine())
     }
 }
 
