@@ -20,13 +20,15 @@ mod nodes;
 mod rates;
 mod scatter;
 mod tile;
+mod wanted;
 
 pub use columns::Columns;
 pub use cpdi::Domains;
-pub use gather::{Gathered, Sources, Wanted, exchange, gather};
+pub use gather::{Gathered, Sources, exchange, gather};
 pub use rates::Rates;
 pub use scatter::{Scattered, scatter, scatter_forces};
 pub use tile::{Reach, Tile};
+pub use wanted::Wanted;
 
 use crate::grid::Geometry;
 use crate::math::Vector;
