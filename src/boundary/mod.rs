@@ -102,5 +102,12 @@ conditions! {
     "wall" => wall::Wall,
 }
 
+impl ConditionChoice {
+    /// Whether it stops a body on one side only: what comes to it later, or leaves it, matters.
+    pub fn is_one_sided(&self) -> bool {
+        matches!(self, Self::Wall(_))
+    }
+}
+
 #[cfg(test)]
 mod tests;

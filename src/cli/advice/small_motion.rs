@@ -18,7 +18,7 @@ pub fn advise(subject: &Subject) -> Vec<Advice> {
         || scenario
             .boundaries
             .iter()
-            .any(|spec| matches!(spec.condition, ConditionChoice::Wall(_)));
+            .any(|spec| spec.condition.is_one_sided());
     let locks =
         scenario.plane != Plane::Stress && locking::highest_ratio(scenario).1 >= locking::HIGH;
     // in 1D the frame costs what two nodes in place of three save

@@ -7,7 +7,6 @@
 use super::numerics::GivenMethod;
 use super::{CountedBody, Named};
 use crate::basis::{BasisChoice, Gimp, QuadraticBSpline};
-use crate::boundary::ConditionChoice;
 use crate::scenario::{
     BodySpec, BoundarySpec, Chosen, GridSpec, MaterialSpec, Method, ReferenceFrame, Region,
 };
@@ -93,7 +92,7 @@ fn nothing_touches(
         return (false, "bodies may touch each other");
     };
     for boundary in boundaries {
-        if is_one_sided(&boundary.condition) {
+        if boundary.condition.is_one_sided() {
             return (false, "the body may touch or leave a wall");
         }
         if !is_reached(&counted.body, &boundary.on, grid) {
@@ -104,11 +103,6 @@ fn nothing_touches(
         }
     }
     (true, "one body, which nothing can touch")
-}
-
-/// Whether a condition stops a body on one side only.
-pub(super) fn is_one_sided(condition: &ConditionChoice) -> bool {
-    matches!(condition, ConditionChoice::Wall(_))
 }
 
 /// Whether a body begins less than a cell from a region.

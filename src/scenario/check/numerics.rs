@@ -223,7 +223,7 @@ pub(super) fn warn_of_frame(
     }
     let walls = boundaries
         .iter()
-        .filter(|boundary| super::defaults::is_one_sided(&boundary.condition));
+        .filter(|boundary| boundary.condition.is_one_sided());
     for wall in walls {
         warnings.push(format!(
             "method.frame: in the total frame the wall \"{}\" stops only what touches it at the start, and wherever that is by then; what comes from afar passes, what has left cannot come back; use frame = \"updated\" for impact",

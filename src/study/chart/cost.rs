@@ -61,23 +61,21 @@ mod tests {
     use super::*;
     use crate::scenario::parse;
 
+    /// Work of 7 steps of 10 points, quadratic and `usl`, with one more override.
+    fn with(setting: &str) -> f64 {
+        let text = include_str!("../../../scenarios/bar1d.toml");
+        let overrides = [
+            setting.to_string(),
+            "method.basis=\"quadratic\"".into(),
+            "method.update=\"usl\"".into(),
+        ];
+        let loaded = parse("bar1d", text, &overrides).expect("a scenario");
+        work(&loaded.scenario, 10, 7)
+    }
+
     #[test]
     fn each_term_of_fmpm_costs_a_step_of_pic_more() {
-        let text = include_str!("../../../scenarios/bar1d.toml");
-        let of = |transfer: &str| {
-            let overrides = [
-                format!("method.transfer={transfer}"),
-                "method.basis=\"quadratic\"".into(),
-                "method.update=\"usl\"".into(),
-            ];
-            work(
-                &parse("bar1d", text, &overrides)
-                    .expect("a scenario")
-                    .scenario,
-                10,
-                7,
-            )
-        };
+        let of = |transfer: &str| with(&format!("method.transfer={transfer}"));
         assert_eq!(of("\"pic\""), 70.0 * 6.0);
         assert_eq!(of("{ fmpm = { order = 1 } }"), 70.0 * 6.0);
         assert_eq!(of("{ fmpm = { order = 4 } }"), 70.0 * 24.0);
@@ -85,21 +83,7 @@ mod tests {
 
     #[test]
     fn the_total_frame_costs_two_nodes_a_point_more() {
-        let text = include_str!("../../../scenarios/bar1d.toml");
-        let of = |frame: &str| {
-            let overrides = [
-                format!("method.frame=\"{frame}\""),
-                "method.basis=\"quadratic\"".into(),
-                "method.update=\"usl\"".into(),
-            ];
-            work(
-                &parse("bar1d", text, &overrides)
-                    .expect("a scenario")
-                    .scenario,
-                10,
-                7,
-            )
-        };
+        let of = |frame: &str| with(&format!("method.frame=\"{frame}\""));
         assert_eq!(of("updated"), 70.0 * 6.0);
         assert_eq!(of("total"), 70.0 * 8.0);
     }
