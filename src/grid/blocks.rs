@@ -49,6 +49,13 @@ pub struct BodyBlocks<const D: usize> {
     pub colours: Vec<Vec<u32>>,
 }
 
+impl<const D: usize> BodyBlocks<D> {
+    /// How many points the body had when it was sorted into its blocks.
+    pub fn points(&self) -> usize {
+        self.blocks.last().map_or(0, |block| block.points().end)
+    }
+}
+
 /// All active blocks of the grid.
 #[derive(Clone, Debug, Default)]
 pub struct Blocks<const D: usize> {

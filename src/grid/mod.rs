@@ -2,7 +2,7 @@
 
 mod blocks;
 
-pub use blocks::{Block, Blocks, Occupied, Row};
+pub use blocks::{Block, Blocks, BodyBlocks, Occupied, Row};
 
 use crate::basis::Basis;
 use crate::math::Vector;

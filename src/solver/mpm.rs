@@ -6,7 +6,7 @@ use super::kernels::Kernels;
 use super::ledger::{GridSums, Ledger, Stored};
 use super::loads::{Load, Loads};
 use super::sort::Scratch;
-use super::stencil::{Gathered, Scattered, Sources, Wanted};
+use super::stencil::{Columns, Gathered, Scattered, Sources, Wanted};
 use super::{Fault, Limit, Solver};
 use crate::boundary::Condition;
 use crate::grid::{Blocks, Geometry, Node, block_edge};
@@ -64,6 +64,8 @@ pub struct Mpm<const D: usize> {
     pub(super) constraints: Vec<Constraint<D>>,
     pub(super) constraint_ranges: Vec<(u32, u32)>,
     pub(super) gathered: Vec<Gathered>,
+    /// The columns of every body, for one step.
+    pub(super) columns: Vec<Columns<D>>,
     pub(super) scratch: Scratch<D>,
     pub(super) ledger: Ledger<D>,
     pub(super) needs_sort: bool,
@@ -115,6 +117,7 @@ impl<const D: usize> Mpm<D> {
             constraints: Vec::new(),
             constraint_ranges: Vec::new(),
             gathered: Vec::new(),
+            columns: Vec::new(),
             scratch: Scratch::default(),
             ledger: Ledger::default(),
             needs_sort: true,
@@ -272,19 +275,20 @@ impl<const D: usize> Solver<D> for Mpm<D> {
         if self.needs_sort {
             self.sort(state)?;
         }
+        self.point_at_columns(state);
         self.clear_grid();
         match self.scheme {
             Scheme::UpdateStressFirst => {
-                self.points_to_grid(state, dt, Scattered::MOMENTUM);
+                self.points_to_grid(dt, Scattered::MOMENTUM);
                 self.second.copy_from_slice(&self.main);
                 self.second_velocities(state.time);
                 self.grid_to_points(state, dt, Wanted::STRAIN, &self.sources());
-                self.points_to_grid(state, dt, Scattered::FORCE);
+                self.points_to_grid(dt, Scattered::FORCE);
             }
-            _ => self.points_to_grid(state, dt, Scattered::ALL),
+            _ => self.points_to_grid(dt, Scattered::ALL),
         }
         self.loads_to_grid(state, dt);
-        let sums = self.grid_step(state, dt).and(&self.sharpen(state, dt));
+        let sums = self.grid_step(state, dt).and(&self.sharpen(state.time, dt));
         self.react(dt);
         let sources = self.sources();
         let gathered = match self.scheme {
@@ -292,7 +296,7 @@ impl<const D: usize> Solver<D> for Mpm<D> {
             Scheme::UpdateStressLast => self.grid_to_points(state, dt, Wanted::ALL, &sources),
             Scheme::ModifiedUpdateStressLast => {
                 let mut second = std::mem::take(&mut self.second);
-                let gathered = self.exchange(state, dt, &sources, &mut second);
+                let gathered = self.exchange(dt, &sources, &mut second);
                 self.second = second;
                 self.second_velocities(state.time + dt);
                 let rest = Wanted::POSITION_AND_STRAIN;

@@ -6,9 +6,9 @@ use super::frame;
 use super::kernels::Context;
 use super::mpm::Mpm;
 use super::stencil::{CHUNK, Columns, Gathered, Rates, Reach, Scattered, Sources, Tile, Wanted};
-use crate::grid::{Block, Node};
+use crate::grid::{Block, BodyBlocks, Node};
 use crate::material::{Increments, MaterialPoints, StressMut};
-use crate::state::{Body, State};
+use crate::state::State;
 use rayon::prelude::*;
 
 /// Points that a task should have at least, so that handing it to a thread costs little.
@@ -46,9 +46,9 @@ unsafe impl Send for Readable {}
 // SAFETY: as above
 unsafe impl Sync for Readable {}
 
-/// Blocks that a task should have at least, where `blocks` hold `points`.
-fn blocks_per_task(points: usize, blocks: usize) -> usize {
-    (POINTS_PER_TASK * blocks / points.max(1)).max(1)
+/// Blocks of a body that a task should have at least.
+fn blocks_per_task<const D: usize>(own: &BodyBlocks<D>) -> usize {
+    (POINTS_PER_TASK * own.blocks.len() / own.points().max(1)).max(1)
 }
 
 fn for_each(
@@ -78,13 +78,14 @@ impl<const D: usize> Mpm<D> {
         }
     }
 
-    /// The columns of a body, which has as many points as when it was sorted.
-    fn columns(&self, index: usize, body: &mut Body<D>) -> Columns<D> {
-        let count = self.blocks.bodies[index]
-            .blocks
-            .last()
-            .map_or(0, |block| block.points().end);
-        Columns::new(&mut body.particles, count, self.kernels.affine())
+    /// Points at the columns of all bodies, which have as many points as when they were sorted.
+    pub(super) fn point_at_columns(&mut self, state: &mut State<D>) {
+        let affine = self.kernels.affine();
+        self.columns.clear();
+        for (own, body) in self.blocks.bodies.iter().zip(&mut state.bodies) {
+            let columns = Columns::new(&mut body.particles, own.points(), affine);
+            self.columns.push(columns);
+        }
     }
 
     /// Zeroes the nodes that the step will add to.
@@ -96,49 +97,41 @@ impl<const D: usize> Mpm<D> {
     }
 
     /// What points give to the grid.
-    pub(super) fn points_to_grid(&mut self, state: &mut State<D>, dt: f64, what: Scattered) {
+    pub(super) fn points_to_grid(&mut self, dt: f64, what: Scattered) {
         let main = Target(self.main.as_mut_ptr());
         let force = Target(self.change.as_mut_ptr());
-        for (index, body) in state.bodies.iter_mut().enumerate() {
-            let columns = self.columns(index, body);
+        for (index, columns) in self.columns.iter().enumerate() {
             let context = self.context(index, dt);
-            self.for_each_block(index, body.particles.len(), |_, block| {
+            self.for_each_block(index, |_, block| {
                 let targets = [main.pointer(), force.pointer()];
                 // SAFETY: blocks of one colour share no node and no row; the tile of a block is stored
                 unsafe {
                     self.kernels
-                        .scatter(&context, &columns, block, what, targets)
+                        .scatter(&context, columns, block, what, targets)
                 };
             });
         }
     }
 
     /// New velocities of the points from `from`, and their momenta and masses to `second`, an array of the grid.
-    pub(super) fn exchange(
-        &mut self,
-        state: &mut State<D>,
-        dt: f64,
-        from: &Sources,
-        second: &mut [Node],
-    ) -> Gathered {
+    pub(super) fn exchange(&mut self, dt: f64, from: &Sources, second: &mut [Node]) -> Gathered {
         clear(second, &self.blocks.rows, self.parallel);
         let second = Target(second.as_mut_ptr());
         let from = Readable(*from);
         let mut results = std::mem::take(&mut self.gathered);
         let mut total = Gathered::NONE;
-        for (index, body) in state.bodies.iter_mut().enumerate() {
-            let columns = self.columns(index, body);
+        for (index, columns) in self.columns.iter().enumerate() {
             let context = self.context(index, dt);
             results.clear();
             results.resize(self.blocks.bodies[index].blocks.len(), Gathered::NONE);
             let result = Disjoint::new(&mut results);
-            self.for_each_block(index, body.particles.len(), |number, block| {
+            self.for_each_block(index, |number, block| {
                 // SAFETY: as above; every block has a result of its own
                 unsafe {
                     let second = second.pointer();
                     let gathered =
                         self.kernels
-                            .exchange(&context, &columns, block, from.sources(), second);
+                            .exchange(&context, columns, block, from.sources(), second);
                     result.slice(number..number + 1)[0] = gathered;
                 }
             });
@@ -149,14 +142,9 @@ impl<const D: usize> Mpm<D> {
     }
 
     /// Calls `work` with the number of each block of a body and the block, one colour after the other.
-    fn for_each_block(
-        &self,
-        body: usize,
-        points: usize,
-        work: impl Fn(usize, &Block<D>) + Send + Sync,
-    ) {
+    fn for_each_block(&self, body: usize, work: impl Fn(usize, &Block<D>) + Send + Sync) {
         let own = &self.blocks.bodies[body];
-        let least = || blocks_per_task(points, own.blocks.len());
+        let least = || blocks_per_task(own);
         for colour in &own.colours {
             for_each(colour.len(), least, self.parallel, |i| {
                 let number = colour[i] as usize;
@@ -166,7 +154,7 @@ impl<const D: usize> Mpm<D> {
     }
 
     /// Forces of loads.
-    pub(super) fn loads_to_grid(&mut self, state: &mut State<D>, dt: f64) {
+    pub(super) fn loads_to_grid(&mut self, state: &State<D>, dt: f64) {
         if self.loads.is_empty() {
             return;
         }
@@ -177,18 +165,17 @@ impl<const D: usize> Mpm<D> {
         let external = Target(self.external.as_mut_ptr());
         for load in 0..loads.len() {
             let index = loads.body(load);
-            let columns = self.columns(index, &mut state.bodies[index]);
+            let columns = &self.columns[index];
             let context = self.context(index, dt);
             let offset = loads.offset(load);
-            let points = state.bodies[index].particles.len();
-            self.for_each_block(index, points, |_, block| {
+            self.for_each_block(index, |_, block| {
                 let forces = loads.in_rows(load, block.points());
                 if !forces.is_empty() {
                     // SAFETY: as for the points' momenta
                     unsafe {
                         self.kernels.scatter_forces(
                             &context,
-                            &columns,
+                            columns,
                             block,
                             external.pointer(),
                             &offset,
@@ -204,7 +191,7 @@ impl<const D: usize> Mpm<D> {
     /// What points take from the grid.
     pub(super) fn grid_to_points(
         &mut self,
-        state: &mut State<D>,
+        state: &State<D>,
         dt: f64,
         what: Wanted,
         from: &Sources,
@@ -212,19 +199,19 @@ impl<const D: usize> Mpm<D> {
         let mut results = std::mem::take(&mut self.gathered);
         let mut total = Gathered::NONE;
         let from = Readable(*from);
-        for (index, body) in state.bodies.iter_mut().enumerate() {
-            let columns = self.columns(index, body);
+        for (index, body) in state.bodies.iter().enumerate() {
+            let columns = &self.columns[index];
             let material = &*body.material;
             let context = self.context(index, dt);
-            let blocks = &self.blocks.bodies[index].blocks;
-            let points = body.particles.len();
+            let own = &self.blocks.bodies[index];
+            let blocks = &own.blocks;
             let shift = self.kernels.shift(index);
             results.clear();
             results.resize(blocks.len(), Gathered::NONE);
             let work = |block: &Block<D>| {
                 self.gather_block(
                     &context,
-                    &columns,
+                    columns,
                     block,
                     &shift,
                     material,
@@ -236,7 +223,7 @@ impl<const D: usize> Mpm<D> {
                 results
                     .par_iter_mut()
                     .zip(blocks)
-                    .with_min_len(blocks_per_task(points, blocks.len()))
+                    .with_min_len(blocks_per_task(own))
                     .for_each(|(result, block)| *result = work(block));
             } else {
                 for (result, block) in results.iter_mut().zip(blocks) {

@@ -9,7 +9,6 @@ use super::stencil::Sources;
 use crate::boundary::{Condition, Node as Place};
 use crate::grid::Node;
 use crate::math::Vector;
-use crate::state::State;
 
 impl<const D: usize> Mpm<D> {
     /// Adds all terms but the first to the velocities at the end of the step; points are left with the velocity of a term. Returns
@@ -17,7 +16,7 @@ impl<const D: usize> Mpm<D> {
     ///
     /// Terms are sums of momentum zero, so that momentum stays what it was, but for what conditions take: a term is what they
     /// leave of it, so that a node that is held gets none.
-    pub(super) fn sharpen(&mut self, state: &mut State<D>, dt: f64) -> GridSums {
+    pub(super) fn sharpen(&mut self, time: f64, dt: f64) -> GridSums {
         let mut total = GridSums::default();
         if !self.has_terms() {
             return total;
@@ -30,8 +29,8 @@ impl<const D: usize> Mpm<D> {
                 change: self.change.as_ptr(),
                 second: self.second.as_ptr(),
             };
-            self.exchange(state, dt, &from, &mut image);
-            total = total.and(&self.next_term(&image, state.time, dt));
+            self.exchange(dt, &from, &mut image);
+            total = total.and(&self.next_term(&image, time, dt));
         }
         self.image = image;
         total

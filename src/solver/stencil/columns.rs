@@ -156,8 +156,10 @@ impl<const D: usize> Columns<D> {
             if self.each_mass != 0 {
                 return numbers::<L>(self.mass.add(first), count);
             }
-            let mass = *self.mass;
-            L::new(std::array::from_fn(|q| if q < count { mass } else { 0.0 }))
+            if count == 4 {
+                return L::splat(*self.mass);
+            }
+            L::load_some([*self.mass; 4].as_ptr(), count)
         }
     }
 

@@ -1,7 +1,7 @@
 //! From the grid to points.
 
 use super::dilation::Centre;
-use super::group::{Four, Group, Needs};
+use super::group::{Four, FourRows, Fours, Group, Needs};
 use super::line::{gather_four, scatter_four};
 use super::nodes::{Stencil, gather_linear, without_absent};
 use super::scatter::{Scattered, scatter_point};
@@ -78,9 +78,10 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
     };
     let mut sums = GatheredLanes::<L>::new();
     let dt = L::splat(pass.dt);
-    for first in rows.clone().step_by(4) {
-        let count = (rows.end - first).min(4);
-        let at = first - rows.start;
+    let start = rows.start;
+    for four in Fours(rows) {
+        let FourRows { first, count } = four;
+        let at = first - start;
         // SAFETY: the rows belong to this block alone (module header)
         let place = unsafe { columns.places::<L>(first, count) };
         columns.prefetch::<L>(first, T::AFFINE && what.velocity, false);
@@ -94,7 +95,6 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
             // SAFETY: as above
             position = unsafe { columns.positions::<L>(first, count) };
         }
-        let four = FourRows { first, count };
         // SAFETY: the tile holds every node of the stencils, and the rows belong to this block alone (module header)
         let offered = unsafe {
             offered::<L, D, N, B, T>(
@@ -155,7 +155,6 @@ pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: 
     second: *mut Node,
 ) -> Gathered {
     let tile = Tile::new(block, edge, N);
-    let points = block.points();
     let mut group = Group::<D, N>::new();
     let centre = Centre::new(pass);
     let needs = Needs {
@@ -163,9 +162,8 @@ pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: 
         affine: T::AFFINE,
     };
     let mut sums = GatheredLanes::<L>::new();
-    for first in points.clone().step_by(4) {
-        let count = (points.end - first).min(4);
-        let four = FourRows { first, count };
+    for four in Fours(block.points()) {
+        let FourRows { first, count } = four;
         // SAFETY: as in `gather`, and as in `scatter`
         unsafe {
             let place = columns.places::<L>(first, count);
@@ -211,13 +209,6 @@ fn all_finite<L: Lane, const D: usize>(position: &[L; D]) -> bool {
         finite &= position[a].all_within(-f64::MAX, f64::MAX);
     }
     finite
-}
-
-/// Rows of up to four points, one after the other.
-#[derive(Clone, Copy)]
-pub(super) struct FourRows {
-    pub first: usize,
-    pub count: usize,
 }
 
 /// Velocities that the grid offers to four points, m/s.

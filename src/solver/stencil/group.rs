@@ -4,6 +4,32 @@ use super::{Pass, Tile};
 use crate::basis::{Basis, Functions};
 use crate::solver::lane::Lane;
 use crate::transfer::Transfer;
+use std::ops::Range;
+
+/// Rows of up to four points, one after the other.
+#[derive(Clone, Copy)]
+pub(super) struct FourRows {
+    pub first: usize,
+    pub count: usize,
+}
+
+/// All rows of a range, four at a time. The standard library's steps cost a dozen instructions each.
+pub(super) struct Fours(pub Range<usize>);
+
+impl Iterator for Fours {
+    type Item = FourRows;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<FourRows> {
+        let Range { start: first, end } = self.0;
+        if first >= end {
+            return None;
+        }
+        self.0.start = first + 4;
+        let count = (end - first).min(4);
+        Some(FourRows { first, count })
+    }
+}
 
 /// One number of each of four points, to be read one by one or together.
 #[repr(C, align(32))]

@@ -1,8 +1,7 @@
 //! The innermost loops in 1D. A node holds one component and its mass there, too little to fill a lane: so four points are
 //! taken together, and what they give to their nodes is added in their order.
 
-use super::gather::FourRows;
-use super::group::{Four, Group};
+use super::group::{Four, FourRows, Group};
 use super::scatter::Scattered;
 use super::{Columns, Pass, Tile};
 use crate::grid::Node;

@@ -1,8 +1,7 @@
 //! From points to the grid.
 
 use super::dilation::Centre;
-use super::gather::FourRows;
-use super::group::{Group, Needs};
+use super::group::{FourRows, Fours, Group, Needs};
 use super::line::scatter_four;
 use super::nodes::{Gift, Stencil, scatter_gift};
 use super::{Columns, Pass, Tile};
@@ -56,15 +55,14 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
     force: *mut Node,
 ) {
     let tile = Tile::new(block, edge, N);
-    let points = block.points();
     let mut group = Group::<D, N>::new();
     let mut centre = Centre::new(pass);
     let needs = Needs {
         slope: what.force && !T::MOVING_LEAST_SQUARES,
         affine: T::AFFINE,
     };
-    for first in points.clone().step_by(4) {
-        let count = (points.end - first).min(4);
+    for rows in Fours(block.points()) {
+        let FourRows { first, count } = rows;
         // SAFETY: the rows belong to this block alone (module header)
         let place = unsafe { columns.places::<L>(first, count) };
         columns.prefetch::<L>(first, T::AFFINE && what.momentum, what.force);
@@ -73,7 +71,6 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
             centre.set(&group);
         }
         if D == 1 {
-            let rows = FourRows { first, count };
             // SAFETY: as the caller says, and as above
             unsafe {
                 scatter_four::<L, D, N, B, T>(pass, columns, &group, &tile, rows, what, main, force)
