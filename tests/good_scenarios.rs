@@ -291,11 +291,16 @@ fn a_1d_material_that_would_contract_is_warned_about_unless_the_plane_is_given()
 
 /// What a scenario that names neither a basis nor a frame gets, with these lines added and this Poisson's ratio.
 fn left_to_the_scene(lines: &str, ratio: f64) -> (String, String) {
+    left_to_a_box(0.4, lines, ratio)
+}
+
+/// The same for a body that begins at this x.
+fn left_to_a_box(left: f64, lines: &str, ratio: f64) -> (String, String) {
     let text = format!(
         "dimension = 2\ntime = {{ end = 1, courant = 0.3 }}\n\
          grid = {{ min = [0, 0], max = [1, 1], cell_size = 0.1 }}\n\
          material.soft = {{ density = 1, neo_hookean = {{ youngs_modulus = 1, poissons_ratio = {ratio} }} }}\n\
-         [[body]]\nname = \"a\"\nmaterial = \"soft\"\nshape.box = {{ min = [0.4, 0.0], max = [0.6, 0.5] }}\n{lines}"
+         [[body]]\nname = \"a\"\nmaterial = \"soft\"\nshape.box = {{ min = [{left}, 0.0], max = [0.6, 0.5] }}\n{lines}"
     );
     let loaded = parse("scene", &text, &[]).unwrap_or_else(|error| panic!("{error}"));
     let method = &loaded.scenario.method;
@@ -323,8 +328,8 @@ fn the_scene_decides_on_frame_and_basis_that_nobody_names() {
     let total = |basis: &str| ("total".to_string(), basis.to_string());
     let updated = |basis: &str| ("updated".to_string(), basis.to_string());
     let base = boundary("side = \"y_min\"", "fixed");
-    assert_eq!(left_to_the_scene("", 0.3), total("gimp"));
-    assert_eq!(left_to_the_scene(&base, 0.3), total("gimp"));
+    assert_eq!(left_to_the_scene("", 0.3), total("linear"));
+    assert_eq!(left_to_the_scene(&base, 0.3), total("linear"));
     assert_eq!(left_to_the_scene(&base, 0.4), total("quadratic"));
     // a ceiling that it may hit, a floor that it may leave, another body, a support that it does not reach
     let ceiling = boundary("side = \"y_max\"", "fixed");
@@ -338,7 +343,9 @@ fn the_scene_decides_on_frame_and_basis_that_nobody_names() {
             "{lines}"
         );
     }
-    assert_eq!(left_to_the_scene(&near, 0.3), total("gimp"));
+    assert_eq!(left_to_the_scene(&near, 0.3), total("linear"));
+    // points that would reach across a face of a cell
+    assert_eq!(left_to_a_box(0.42, "", 0.3), total("gimp"));
     // who names one of the two is not surprised by the other
     let named = |key: &str| format!("[method]\n{key}\n");
     assert_eq!(
@@ -347,7 +354,7 @@ fn the_scene_decides_on_frame_and_basis_that_nobody_names() {
     );
     assert_eq!(
         left_to_the_scene(&named("frame = \"total\""), 0.3),
-        total("gimp")
+        total("linear")
     );
     assert_eq!(
         left_to_the_scene(&named("frame = \"updated\""), 0.3),

@@ -284,3 +284,33 @@ fn what_the_frame_does_not_do_is_told() {
     );
     assert!(!warnings(&scene, "updated").contains("frame"));
 }
+
+/// Over a cell a hat is a straight line: its mean over a point that reaches no farther is its value in the middle.
+#[test]
+fn gimp_is_the_linear_basis_where_no_point_reaches_beyond_its_cell() {
+    let largest = |one: &Recorded, other: &Recorded| {
+        let pairs = one.memory.frames.iter().zip(&other.memory.frames);
+        let pairs = pairs.flat_map(|(a, b)| a.points.iter().zip(&b.points));
+        pairs.fold(0.0_f64, |most, (a, b)| {
+            let way = |k: usize| (a.position[k] - b.position[k]).abs();
+            most.max(way(0)).max(way(1)).max(way(2))
+        })
+    };
+    for dimension in 1..=3 {
+        let inside = flying_box(dimension);
+        let mut across = inside.clone();
+        across.cell_size = 0.4;
+        for gimp in variants_in("total").iter().filter(|v| v.basis == "gimp") {
+            let linear = Variant {
+                basis: "linear",
+                ..gimp.clone()
+            };
+            let apart = |scene: &Scene| largest(&run(scene, gimp), &run(scene, &linear));
+            let name = format!("{dimension}D {gimp:?}");
+            let same = apart(&inside);
+            assert!(same < 1e-11, "{name}: {same:e}");
+            let differs = apart(&across);
+            assert!(differs > 1e-6, "{name}: {differs:e}");
+        }
+    }
+}

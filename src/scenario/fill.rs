@@ -253,6 +253,15 @@ impl<'a> Filling<'a> {
         points
     }
 
+    /// Whether nodes of the grid lie on corners of lattice cells: then what a point stands for lies in one cell of the grid.
+    pub fn divides_cells(&self, grid: &GridSpec) -> bool {
+        let whole = |x: f64| (x - x.round()).abs() < 1e-9 * x.abs().max(1.0);
+        (0..self.dimension).all(|axis| {
+            let spacing = self.spacing[axis];
+            whole(grid.cell_size / spacing) && whole((self.origin[axis] - grid.min[axis]) / spacing)
+        })
+    }
+
     /// Length, area or volume of a lattice cell.
     fn cell(&self) -> f64 {
         self.spacing.iter().product()

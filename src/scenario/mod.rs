@@ -53,6 +53,13 @@ pub struct Scenario {
     pub probes: Vec<ProbeSpec>,
 }
 
+impl Scenario {
+    /// The method that this scene would get if its file named none.
+    pub fn default_method(&self) -> Option<Method> {
+        check::default_method(self)
+    }
+}
+
 /// How the time step is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepRule {

@@ -73,8 +73,8 @@ fn a_bar_between_rollers_needs_one_dimension() {
             .contains(r#""low_y", "high_y", "low_z" and "high_z""#)
     );
     assert!(found.change.contains("divide the force of \"pull\" by 2"));
-    // 8 points of 27 nodes for one of 3
-    let expected = 8.0 * (160.0 + 26.0 * 27.0) / (160.0 + 26.0 * 3.0);
+    // 8 points of 8 nodes for one of 2
+    let expected = 8.0 * (160.0 + 26.0 * 8.0) / (160.0 + 26.0 * 2.0);
     assert!(
         (found.factor.unwrap_or(0.0) / expected - 1.0).abs() < 1e-12,
         "{found:?}"

@@ -1,12 +1,14 @@
 //! What a scenario gets that leaves frame and basis out: the cheapest that the charts show to be safe in this scene.
 //!
 //! Where nothing can touch, the total Lagrangian frame needs the least work for its accuracy and has no cell crossing; it does not
-//! see contact. Of its bases `gimp` has the errors of `linear`, and bears points close to a node; both lock near ν = ½, where splines
-//! do not. In the updated frame points cross cells, which takes quadratic splines.
+//! see contact. Of its bases `gimp` bears points close to a node, where `linear` blows up; but where no point reaches beyond its
+//! cell the mean of a hat over the width of a point is the hat at its middle, and `linear` gives the same for fewer nodes. Both lock
+//! near ν = ½, where splines do not. In the updated frame points cross cells, which takes quadratic splines.
 
 use super::numerics::GivenMethod;
-use super::{CountedBody, Named};
-use crate::basis::{BasisChoice, Gimp, QuadraticBSpline};
+use crate::basis::{BasisChoice, Gimp, Linear, QuadraticBSpline};
+use crate::material::Plane;
+use crate::scenario::fill::Filling;
 use crate::scenario::{
     BodySpec, BoundarySpec, Chosen, GridSpec, MaterialSpec, Method, ReferenceFrame, Region,
 };
@@ -23,15 +25,19 @@ fn quadratic() -> BasisChoice {
     BasisChoice::QuadraticBSpline(QuadraticBSpline)
 }
 
+/// What the choice of a method looks at.
+pub(super) struct Surroundings<'a> {
+    /// All bodies; none in place of one that could not be read.
+    pub bodies: Vec<Option<&'a BodySpec>>,
+    pub boundaries: &'a [BoundarySpec],
+    pub materials: Vec<&'a MaterialSpec>,
+    pub grid: &'a GridSpec,
+    pub plane: Plane,
+}
+
 /// The method of a scene: what the file says, and for the rest what suits the scene.
-pub(super) fn method(
-    given: &GivenMethod,
-    bodies: &[Named<CountedBody>],
-    boundaries: &[BoundarySpec],
-    materials: &[Named<MaterialSpec>],
-    grid: &GridSpec,
-) -> Method {
-    let (alone, why) = nothing_touches(bodies, boundaries, grid);
+pub(super) fn method(given: &GivenMethod, scene: &Surroundings<'_>) -> Method {
+    let (alone, why) = nothing_touches(scene);
     // a basis that was chosen was chosen for points that move through the grid
     let free = given.frame.is_none() && given.basis.is_none();
     let frame = given.frame.unwrap_or(if free && alone {
@@ -39,14 +45,34 @@ pub(super) fn method(
     } else {
         ReferenceFrame::Updated
     });
-    let stiff = materials
+    let stiff = scene
+        .materials
         .iter()
-        .filter_map(|named| named.found.as_ref()?.poissons_ratio)
+        .filter_map(|material| material.poissons_ratio)
         .any(|ratio| ratio >= LOCKS);
-    let basis = given.basis.unwrap_or_else(|| match frame {
-        ReferenceFrame::Total if !stiff => BasisChoice::Gimp(Gimp::default()),
-        _ => quadratic(),
-    });
+    let inside_cells = || {
+        let divides = |body: &BodySpec| {
+            let per_cell = &body.particles_per_cell;
+            Filling::new(&body.shape, scene.grid, per_cell, scene.plane).divides_cells(scene.grid)
+        };
+        let mut bodies = scene.bodies.iter();
+        bodies.all(|body| body.is_some_and(divides))
+    };
+    let (chosen_basis, why_basis) = match frame {
+        ReferenceFrame::Updated => (quadratic(), "points cross cells"),
+        ReferenceFrame::Total if stiff => {
+            (quadratic(), "hat functions lock near Poisson's ratio 0.5")
+        }
+        ReferenceFrame::Total if inside_cells() => (
+            BasisChoice::Linear(Linear::default()),
+            "points cross no cells, and none reaches beyond its own",
+        ),
+        ReferenceFrame::Total => (
+            BasisChoice::Gimp(Gimp::default()),
+            "points cross no cells, but some reach beyond their own",
+        ),
+    };
+    let basis = given.basis.unwrap_or(chosen_basis);
     let mut chosen = Vec::new();
     if free {
         chosen.push(Chosen {
@@ -56,15 +82,10 @@ pub(super) fn method(
         });
     }
     if given.basis.is_none() {
-        let why = match frame {
-            ReferenceFrame::Updated => "points cross cells",
-            ReferenceFrame::Total if stiff => "hat functions lock near Poisson's ratio 0.5",
-            ReferenceFrame::Total => "points cross no cells",
-        };
         chosen.push(Chosen {
             key: "basis",
             value: basis.name(),
-            why,
+            why: why_basis,
         });
     }
     Method {
@@ -77,25 +98,15 @@ pub(super) fn method(
 }
 
 /// Whether the only body touches nothing but what holds it from the start on, and a few words on why.
-fn nothing_touches(
-    bodies: &[Named<CountedBody>],
-    boundaries: &[BoundarySpec],
-    grid: &GridSpec,
-) -> (bool, &'static str) {
-    let [
-        Named {
-            found: Some(counted),
-            ..
-        },
-    ] = bodies
-    else {
+fn nothing_touches(scene: &Surroundings<'_>) -> (bool, &'static str) {
+    let [Some(body)] = scene.bodies[..] else {
         return (false, "bodies may touch each other");
     };
-    for boundary in boundaries {
+    for boundary in scene.boundaries {
         if boundary.condition.is_one_sided() {
             return (false, "the body may touch or leave a wall");
         }
-        if !is_reached(&counted.body, &boundary.on, grid) {
+        if !is_reached(body, &boundary.on, scene.grid) {
             return (
                 false,
                 "the body may come to a boundary that it does not touch at the start",

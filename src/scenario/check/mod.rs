@@ -11,10 +11,11 @@ mod numerics;
 mod records;
 mod size;
 
-use super::{BodySpec, GridSpec, ReferenceFrame, Region, Scenario};
+use super::{BodySpec, GridSpec, Method, ReferenceFrame, Region, Scenario};
 use crate::boundary::Side;
 use crate::input::{Document, Reader, Unit, nearest};
 use crate::material::Plane;
+use defaults::Surroundings;
 
 /// Axes by number.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -42,6 +43,18 @@ struct Named<T> {
 struct CountedBody {
     body: BodySpec,
     points: Option<u64>,
+}
+
+/// The method that a scene would get if its file named none.
+pub(super) fn default_method(scenario: &Scenario) -> Option<Method> {
+    let scene = Surroundings {
+        bodies: scenario.bodies.iter().map(Some).collect(),
+        boundaries: &scenario.boundaries,
+        materials: scenario.materials.iter().collect(),
+        grid: &scenario.grid,
+        plane: scenario.plane,
+    };
+    Some(defaults::method(&numerics::nothing_given()?, &scene))
 }
 
 /// Reads a whole document. Problems go to the document.
@@ -72,8 +85,15 @@ pub(super) fn scenario(
     let boundaries = boundaries::boundaries(&mut root, frame, grid.as_ref(), basis);
     let method = match (&given, &grid) {
         (Some(given), Some(grid)) => {
-            let held = boundaries.as_deref().unwrap_or_default();
-            Some(defaults::method(given, &bodies, held, &materials, grid))
+            let found = bodies.iter().map(|named| named.found.as_ref());
+            let scene = Surroundings {
+                bodies: found.map(|found| found.map(|own| &own.body)).collect(),
+                boundaries: boundaries.as_deref().unwrap_or_default(),
+                materials: materials.iter().filter_map(|m| m.found.as_ref()).collect(),
+                grid,
+                plane: frame.plane,
+            };
+            Some(defaults::method(given, &scene))
         }
         _ => None,
     };

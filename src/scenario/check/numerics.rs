@@ -184,10 +184,15 @@ pub(super) fn method(root: &mut Reader<'_>) -> Option<GivenMethod> {
         return None;
     }
     let Some(reader) = given.as_mut() else {
-        let empty = crate::input::Document::parse("", &[]);
-        return choices(&mut empty.root());
+        return nothing_given();
     };
     choices(reader)
+}
+
+/// The numerical method of a file that does not say any.
+pub(super) fn nothing_given() -> Option<GivenMethod> {
+    let empty = crate::input::Document::parse("", &[]);
+    choices(&mut empty.root())
 }
 
 /// Warns of a method that is known to blow up.

@@ -65,6 +65,22 @@ fn points_tile_a_box_exactly() {
 }
 
 #[test]
+fn points_divide_cells_only_where_they_reach_across_none() {
+    let grid = grid(&[4, 4], 0.1);
+    let divides = |shape: &Shape, per_cell: [u32; 2]| {
+        Filling::new(shape, &grid, &per_cell, Plane::Strain).divides_cells(&grid)
+    };
+    assert!(divides(&ball(&[0.17, 0.2], 0.11), [3, 2]));
+    assert!(divides(&cuboid(&[0.1, 0.1], &[0.3, 0.4]), [1, 3]));
+    // from the middle of a cell on: two points a cell end with it, one or three do not
+    assert!(divides(&cuboid(&[0.05, 0.1], &[0.25, 0.4]), [2, 2]));
+    assert!(!divides(&cuboid(&[0.05, 0.1], &[0.25, 0.4]), [1, 2]));
+    assert!(!divides(&cuboid(&[0.1, 0.05], &[0.3, 0.35]), [2, 3]));
+    // a box that is no whole number of cells long has points of its own width
+    assert!(!divides(&cuboid(&[0.1, 0.1], &[0.33, 0.4]), [2, 2]));
+}
+
+#[test]
 fn a_box_thinner_than_the_spacing_has_one_layer() {
     let shape = cuboid(&[0.0, 0.0, 0.0], &[1.0, 1.0, 1e-3]);
     let points = Filling::new(&shape, &grid(&[4, 4, 4], 0.5), &[1, 1, 1], Plane::Strain).points();
