@@ -258,3 +258,35 @@ fn a_scenario_is_charted_against_a_finer_run_of_itself() {
     assert!(error(1) < error(0) && error(0) < 0.5, "{results}");
     assert!(folder.join("charts/bar1d/chart.csv").is_file());
 }
+
+/// The method of a file that names none is on the chart as such, and by how much it is dearer than the best.
+#[test]
+fn the_default_is_seen_beside_the_cheapest() {
+    let folder = folder("default");
+    let arguments = [
+        "bar1d",
+        "--frame=updated,total",
+        "--basis=linear,gimp,quadratic",
+        "--transfer=apic",
+        "--points=2",
+        "--courant=0.4",
+        "--cells=8,16",
+        "--repeat=1",
+    ];
+    let output = chart(&folder, &arguments);
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    let said = "The default of this scene, total linear apic usl, beside the cheapest of all";
+    assert!(shown.contains(said), "{shown}");
+    // the same error as in the updated frame, for two tensors and four nodes in place of four nodes
+    assert!(shown.contains("1.50"), "{shown}");
+    let rows = std::fs::read_to_string(folder.join("charts/bar1d/chart.csv")).expect("a table");
+    let defaults: Vec<&str> = rows.lines().filter(|row| row.contains(",true,")).collect();
+    assert_eq!(defaults.len(), 2, "{rows}");
+    let named = |row: &&str| row.contains("total,linear,apic,usl");
+    assert!(defaults.iter().all(named), "{rows}");
+
+    let without = [&arguments[..2], &["--basis=quadratic"], &arguments[3..]].concat();
+    let output = chart(&folder, &[&without[..], &["--force"]].concat());
+    assert!(text(&output.stdout).contains("is not among the runs"));
+}

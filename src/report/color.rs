@@ -20,6 +20,8 @@ impl Color {
 
 /// Text, and the curves of exact solutions.
 pub(crate) const INK: Color = Color(34, 34, 34);
+/// What is drawn on.
+pub(crate) const PAPER: Color = Color(255, 255, 255);
 /// Axes.
 pub(crate) const FRAME: Color = Color(110, 110, 110);
 /// Lines behind the data.

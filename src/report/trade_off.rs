@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Ticks};
 use super::chart::{TICK, TITLE, unit};
-use super::color::{Color, FRAME, INK, PALETTE};
+use super::color::{Color, FRAME, INK, PALETTE, PAPER};
 use super::font;
 use super::frame::Sides;
 use super::picture::{Anchor, Disc, Picture, Rect, Shape, Size};
@@ -52,6 +52,8 @@ pub struct TradeOff {
     pub frontier: Vec<Best>,
     /// The frontier of a part of the runs, dashed, and what part.
     pub other: Option<(String, Vec<(f64, f64)>)>,
+    /// Runs in rings, and what they have in common.
+    pub marked: Option<(String, Vec<(f64, f64)>)>,
     /// An error below which differences mean nothing, and why: a dashed line.
     pub floor: Option<(f64, String)>,
 }
@@ -93,6 +95,30 @@ impl TradeOff {
         )
     }
 }
+
+/// What stands before an entry of the legend.
+#[derive(Clone, Copy)]
+enum Mark {
+    Disc(Color),
+    Line,
+    Dashes,
+    Ring,
+}
+
+impl Mark {
+    /// With the space before the text.
+    fn width(self) -> f64 {
+        match self {
+            Self::Disc(_) => 16.0,
+            Self::Line => 36.0,
+            Self::Dashes => 44.0,
+            Self::Ring => 25.0,
+        }
+    }
+}
+
+/// Space between entries of the legend.
+const GAP: f64 = 24.0;
 
 struct Layout<'a> {
     chart: &'a TradeOff,
@@ -164,6 +190,10 @@ impl<'a> Layout<'a> {
         sides.draw(picture);
         self.draw_legend(picture);
         self.draw_floor(picture);
+        if let Some((_, marked)) = &chart.marked {
+            // before the runs, which stand in them
+            self.rings(picture, &self.places(marked));
+        }
         self.draw_runs(picture);
         self.draw_failed(picture);
         self.draw_frontier(picture);
@@ -178,31 +208,53 @@ impl<'a> Layout<'a> {
         ))
     }
 
+    /// Where runs of these costs and errors are drawn.
+    fn places(&self, runs: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        let places = runs.iter();
+        places
+            .filter_map(|&(cost, error)| self.place(cost, error))
+            .collect()
+    }
+
     fn draw_legend(&self, picture: &mut Picture) {
-        let (u, size) = (self.unit, TICK * self.unit);
-        let baseline = self.rect.top + 70.0 * u;
-        let middle = baseline - 0.5 * font::CAP_HEIGHT * size;
-        let mut x = self.frame.left;
-        for (index, group) in self.chart.groups.iter().enumerate() {
-            let color = color(index);
-            self.discs(picture, vec![(x + 5.0 * u, middle)], 4.5, color);
-            x += 16.0 * u;
-            picture.text((x, baseline), &group.name, size, INK, Anchor::Start);
-            x += font::width(&group.name, size) + 24.0 * u;
-        }
-        if !self.chart.frontier.is_empty() {
-            let line = vec![(x, middle), (x + 28.0 * u, middle)];
-            picture.line(line, INK, 2.0 * u);
-            let text = match self.chart.other {
+        let chart = self.chart;
+        let groups = chart.groups.iter().enumerate();
+        let mut entries: Vec<(Mark, &str)> = groups
+            .map(|(index, group)| (Mark::Disc(color(index)), group.name.as_str()))
+            .collect();
+        if !chart.frontier.is_empty() {
+            let text = match chart.other {
                 Some(_) => "frontier",
                 None => "frontier: nothing cheaper is as accurate",
             };
-            picture.text((x + 36.0 * u, baseline), text, size, INK, Anchor::Start);
-            x += 60.0 * u + font::width(text, size);
+            entries.push((Mark::Line, text));
         }
-        if let Some((name, _)) = &self.chart.other {
-            self.dashed(picture, vec![(x, middle), (x + 36.0 * u, middle)]);
-            picture.text((x + 44.0 * u, baseline), name, size, INK, Anchor::Start);
+        if let Some((name, _)) = &chart.other {
+            entries.push((Mark::Dashes, name));
+        }
+        if let Some((name, _)) = &chart.marked {
+            entries.push((Mark::Ring, name));
+        }
+        let widths = entries
+            .iter()
+            .map(|(mark, text)| mark.width() + font::width(text, TICK) + GAP);
+        let room = self.frame.right - self.frame.left;
+        let u = self.unit.min(room / (widths.sum::<f64>() - GAP).max(1.0));
+        let (size, baseline) = (TICK * u, self.rect.top + 70.0 * self.unit);
+        let middle = baseline - 0.5 * font::CAP_HEIGHT * size;
+        let mut x = self.frame.left;
+        for (mark, text) in entries {
+            let line = vec![(x, middle), (x + (mark.width() - 8.0) * u, middle)];
+            let disc = vec![(x + 5.0 * u, middle)];
+            match mark {
+                Mark::Disc(color) => self.discs(picture, disc, 4.5, color),
+                Mark::Line => picture.line(line, INK, 2.0 * u),
+                Mark::Dashes => self.dashed(picture, line),
+                Mark::Ring => self.rings(picture, &[(x + 8.0 * u, middle)]),
+            }
+            x += mark.width() * u;
+            picture.text((x, baseline), text, size, INK, Anchor::Start);
+            x += font::width(text, size) + GAP * u;
         }
     }
 
@@ -228,9 +280,8 @@ impl<'a> Layout<'a> {
     /// Runs off the frontier are small and pale, so that the frontier is what the eye meets first.
     fn draw_runs(&self, picture: &mut Picture) {
         for (index, group) in self.chart.groups.iter().enumerate() {
-            let places = group.points.iter();
-            let places = places.filter_map(|&(cost, error)| self.place(cost, error));
-            self.discs(picture, places.collect(), 2.8, pale(color(index)));
+            let places = self.places(&group.points);
+            self.discs(picture, places, 2.8, pale(color(index)));
         }
     }
 
@@ -265,11 +316,15 @@ impl<'a> Layout<'a> {
         });
     }
 
+    /// Wide enough for the discs of the frontier to stand in them.
+    fn rings(&self, picture: &mut Picture, places: &[(f64, f64)]) {
+        self.discs(picture, places.to_vec(), 9.2, INK);
+        self.discs(picture, places.to_vec(), 7.8, PAPER);
+    }
+
     fn draw_frontier(&self, picture: &mut Picture) {
         if let Some((_, other)) = &self.chart.other {
-            let places = other.iter();
-            let places = places.filter_map(|&(cost, error)| self.place(cost, error));
-            self.dashed(picture, places.collect());
+            self.dashed(picture, self.places(other));
         }
         let (u, best) = (self.unit, &self.chart.frontier);
         let places: Vec<(f64, f64)> = best

@@ -49,6 +49,7 @@ impl Table {
             "order",
             "wall_seconds",
             "work",
+            "default",
             "norm",
             "message",
         ]);
@@ -71,6 +72,7 @@ impl Table {
             number(order),
             number(trial.wall),
             number(trial.work),
+            trial.default.to_string(),
             self.norm.clone(),
             trial.message.clone(),
         ]);

@@ -39,6 +39,7 @@ pub fn describe(chart: &Chart, cost: Cost, folder: &Path) -> String {
         count(Status::Failed)
     );
     text += &frontier(chart, cost);
+    text += &default(chart, cost);
     let all = series(&chart.subject, &chart.trials);
     text += &orders(&all);
     text += &dimensions(chart);
@@ -70,6 +71,47 @@ fn frontier(chart: &Chart, cost: Cost) -> String {
         ]));
     }
     format!("Frontier: nothing is both cheaper ({what}) and more accurate\n{table}\n")
+}
+
+/// Errors at which the default is compared with the best: two a decade.
+fn tolerances(chart: &Chart) -> Vec<f64> {
+    let all = (0..24).map(|k| {
+        let decade = 10f64.powi(-(k / 2));
+        if k % 2 == 0 { decade } else { 0.3 * decade }
+    });
+    let best = chart.best_error();
+    all.filter(|tolerance| (best..0.2).contains(tolerance))
+        .collect()
+}
+
+/// What the method costs that the scene gets if none is named, next to the best of all.
+fn default(chart: &Chart, cost: Cost) -> String {
+    let Some(own) = chart.trials.iter().find(|trial| trial.default) else {
+        return "The method that this scene gets by default is not among the runs\n\n".into();
+    };
+    let mut table = Table::new(["error at most", "cheapest", "default", "ratio"]);
+    for tolerance in tolerances(chart) {
+        let Some(best) = chart.cheapest(cost, tolerance) else {
+            continue;
+        };
+        let own = chart.cheapest_of(cost, tolerance, |trial| trial.default);
+        let shown = |trial: &Trial| match cost {
+            Cost::Wall => out::duration(trial.wall),
+            Cost::Work => format!("{:.2e}", trial.work),
+        };
+        table.push([
+            format!("{tolerance:.0e}"),
+            shown(best),
+            own.map_or("not reached".into(), shown),
+            own.map_or("-".into(), |own| {
+                format!("{:.2}", cost.of(own) / cost.of(best))
+            }),
+        ]);
+    }
+    format!(
+        "The default of this scene, {}, beside the cheapest of all\n{table}\n",
+        own.setting.method()
+    )
 }
 
 fn orders(all: &[Series]) -> String {
@@ -227,6 +269,7 @@ fn entry(trial: &Trial) -> Value {
     entry.insert("particles".into(), json!(trial.particles));
     entry.insert("steps".into(), json!(trial.steps));
     entry.insert("dt".into(), number(trial.dt));
+    entry.insert("default".into(), json!(trial.default));
     entry.insert("status".into(), json!(trial.status));
     entry.insert("message".into(), json!(trial.message));
     entry.insert("error".into(), number(trial.error));

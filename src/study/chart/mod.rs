@@ -97,7 +97,18 @@ impl Chart {
 
     /// The cheapest run with an error of at most this.
     pub fn cheapest(&self, cost: Cost, tolerance: f64) -> Option<&Trial> {
-        let mut best = self.frontier(cost).into_iter().map(|i| &self.trials[i]);
+        self.cheapest_of(cost, tolerance, |_| true)
+    }
+
+    /// The cheapest of some of the runs with an error of at most this.
+    pub fn cheapest_of(
+        &self,
+        cost: Cost,
+        tolerance: f64,
+        among: impl Fn(&Trial) -> bool,
+    ) -> Option<&Trial> {
+        let best = self.frontier_of(cost, among);
+        let mut best = best.into_iter().map(|i| &self.trials[i]);
         best.find(|trial| trial.error <= tolerance)
     }
 

@@ -1,7 +1,7 @@
 //! From trials to a picture.
 
 use super::axes::{AXES, Setting, Value};
-use super::{Chart, Cost, Status, Subject};
+use super::{Chart, Cost, Status, Subject, Trial};
 use crate::report::{Best, Group, TradeOff};
 
 /// Error against cost, a color for each basis, or for each dimension if there are several.
@@ -48,17 +48,22 @@ pub fn picture(chart: &Chart, cost: Cost) -> TradeOff {
         }
     });
     let frontier = best.collect();
+    let places = |among: &dyn Fn(&Trial) -> bool| -> Vec<(f64, f64)> {
+        let own = chart.frontier_of(cost, among).into_iter();
+        own.map(|i| (cost.of(&chart.trials[i]), chart.trials[i].error))
+            .collect()
+    };
     let other = match values(chart, "frame")[..] {
         [first, _, ..] => {
-            let own = chart.frontier_of(cost, |trial| trial.setting.get("frame") == first);
-            let places = own.into_iter().map(|i| {
-                let trial = &chart.trials[i];
-                (cost.of(trial), trial.error)
-            });
-            Some((format!("{first} frame alone"), places.collect()))
+            let own = places(&|trial| trial.setting.get("frame") == first);
+            Some((format!("{first} frame alone"), own))
         }
         _ => None,
     };
+    let own = places(&|trial| trial.default);
+    // where all are the default there is nothing to see
+    let all = chart.trials.iter().all(|trial| trial.default);
+    let marked = (!own.is_empty() && !all).then(|| ("default".into(), own));
     let about = chart.subject.about();
     let dimension = chart.trials.first().map(|t| t.setting.count("dimensions"));
     let what = match dimension {
@@ -94,6 +99,7 @@ pub fn picture(chart: &Chart, cost: Cost) -> TradeOff {
         groups: drawn,
         frontier,
         other,
+        marked,
         floor,
     }
 }

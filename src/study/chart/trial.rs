@@ -1,6 +1,6 @@
 //! One setting: run, measured, and timed.
 
-use super::axes::Setting;
+use super::axes::{Setting, Value};
 use super::cost::work;
 use super::frontier::median;
 use super::subject::{Nowhere, Subject, run};
@@ -36,6 +36,8 @@ impl Status {
 pub struct Trial {
     /// The setting.
     pub setting: Setting,
+    /// Whether its method is the one that this scene gets if its file names none.
+    pub default: bool,
     /// How it ended.
     pub status: Status,
     /// Why it failed; empty if it did not.
@@ -82,6 +84,7 @@ pub fn trial(subject: &Subject, setting: &Setting, scenario: &Scenario, repeats:
     }
     Trial {
         setting: setting.clone(),
+        default: has_default_method(setting, scenario),
         status,
         message,
         error,
@@ -96,6 +99,19 @@ pub fn trial(subject: &Subject, setting: &Setting, scenario: &Scenario, repeats:
         },
         cell_size: scenario.grid.cell_size,
     }
+}
+
+fn has_default_method(setting: &Setting, scenario: &Scenario) -> bool {
+    scenario.default_method().is_some_and(|method| {
+        let own = [
+            ("frame", method.frame.name()),
+            ("basis", method.basis.name()),
+            ("transfer", method.transfer.name()),
+            ("update", method.update.name()),
+        ];
+        own.iter()
+            .all(|(axis, name)| setting.get(axis) == Value::Name(name))
+    })
 }
 
 /// Steps that the step at the start promises, and those of one recorded row at least.
