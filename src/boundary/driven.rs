@@ -20,6 +20,22 @@ impl ConditionParameters for Driven {
         }
         Some(Self { velocity })
     }
+
+    fn is_uniform_along(&self, axis: usize) -> bool {
+        let given = self.velocity.iter().enumerate();
+        let mut given = given.filter_map(|(component, formula)| Some((component, formula.as_ref()?)));
+        given.all(|(component, formula)| formula.is_uniform_along(axis, component))
+    }
+
+    fn mirrored(&self, axis: usize) -> Option<Self> {
+        let given = self.velocity.iter().enumerate();
+        let images = given.map(|(component, formula)| match formula {
+            Some(formula) => formula.mirrored(axis, component).map(Some),
+            None => Some(None),
+        });
+        let velocity = images.collect::<Option<_>>()?;
+        Some(Self { velocity })
+    }
 }
 
 impl Driven {

@@ -12,6 +12,18 @@ impl ConditionParameters for Fixed {
     fn read(_: &mut Reader<'_>, _: &Place) -> Option<Self> {
         Some(Self)
     }
+
+    fn stands_still(&self) -> bool {
+        true
+    }
+
+    fn is_uniform_along(&self, _: usize) -> bool {
+        true
+    }
+
+    fn mirrored(&self, _: usize) -> Option<Self> {
+        Some(*self)
+    }
 }
 
 impl<const D: usize> Condition<D> for Fixed {

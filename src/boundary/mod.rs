@@ -46,6 +46,14 @@ impl Side {
         })
     }
 
+    /// The side that its image in a mirror across an axis is.
+    pub fn mirrored(self, axis: usize) -> Self {
+        Self {
+            axis: self.axis,
+            upper: self.upper != (self.axis == axis),
+        }
+    }
+
     /// Its name in a scenario.
     pub fn name(&self) -> &'static str {
         Self::NAMES[2 * self.axis + usize::from(self.upper)]
@@ -61,10 +69,32 @@ pub struct Place {
     pub side: Option<Side>,
 }
 
-/// What a contributor writes besides [`Condition`]: how its parameters are read.
+/// What a contributor writes besides [`Condition`]: how its parameters are read, and what else is known of it. Of a condition that
+/// says no more, nothing is taken for granted: advice that would have to is not given.
 pub trait ConditionParameters: Sized {
     /// Reads every key it knows; `None` if a problem was found (and recorded in the reader).
     fn read(reader: &mut Reader<'_>, place: &Place) -> Option<Self>;
+
+    /// Whether it stops a body on one side only: what comes to it later, or leaves it, matters. The total frame cannot do that.
+    fn is_one_sided(&self) -> bool {
+        false
+    }
+
+    /// Whether it never sets in motion what is at rest.
+    fn stands_still(&self) -> bool {
+        false
+    }
+
+    /// Whether a model without an axis, 0, 1 or 2, could have the same condition: it acts in the same way all along the axis, and
+    /// gives nothing a motion along it.
+    fn is_uniform_along(&self, _axis: usize) -> bool {
+        false
+    }
+
+    /// The condition that its image in a mirror across an axis is, wherever the mirror stands; `None` where that is not known.
+    fn mirrored(&self, _axis: usize) -> Option<Self> {
+        None
+    }
 }
 
 macro_rules! conditions {
@@ -87,6 +117,26 @@ macro_rules! conditions {
                 match name { $($name => $condition::read(reader, place).map(Self::$condition),)* _ => None }
             }
 
+            /// [`ConditionParameters::is_one_sided`]
+            pub fn is_one_sided(&self) -> bool {
+                match self { $(Self::$condition(condition) => condition.is_one_sided()),* }
+            }
+
+            /// [`ConditionParameters::stands_still`]
+            pub fn stands_still(&self) -> bool {
+                match self { $(Self::$condition(condition) => condition.stands_still()),* }
+            }
+
+            /// [`ConditionParameters::is_uniform_along`]
+            pub fn is_uniform_along(&self, axis: usize) -> bool {
+                match self { $(Self::$condition(condition) => condition.is_uniform_along(axis)),* }
+            }
+
+            /// [`ConditionParameters::mirrored`]
+            pub fn mirrored(&self, axis: usize) -> Option<Self> {
+                match self { $(Self::$condition(condition) => condition.mirrored(axis).map(Self::$condition)),* }
+            }
+
             /// The condition itself, for nodes of a `D`-dimensional grid.
             pub fn build<const D: usize>(&self) -> Box<dyn Condition<D>> {
                 match self { $(Self::$condition(condition) => Box::new(condition.clone())),* }
@@ -100,13 +150,6 @@ conditions! {
     "roller" => roller::Roller,
     "driven" => driven::Driven,
     "wall" => wall::Wall,
-}
-
-impl ConditionChoice {
-    /// Whether it stops a body on one side only: what comes to it later, or leaves it, matters.
-    pub fn is_one_sided(&self) -> bool {
-        matches!(self, Self::Wall(_))
-    }
 }
 
 #[cfg(test)]

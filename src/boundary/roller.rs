@@ -23,6 +23,18 @@ impl ConditionParameters for Roller {
         };
         Some(Self { normal })
     }
+
+    fn stands_still(&self) -> bool {
+        true
+    }
+
+    fn is_uniform_along(&self, axis: usize) -> bool {
+        self.normal != axis
+    }
+
+    fn mirrored(&self, _: usize) -> Option<Self> {
+        Some(*self)
+    }
 }
 
 impl<const D: usize> Condition<D> for Roller {

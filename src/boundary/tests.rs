@@ -1,7 +1,9 @@
 //! What every condition promises.
 
-use super::{Condition, ConditionChoice, Driven, Fixed, Node, Roller, Side, Wall};
-use crate::input::{Expression, Unit};
+use super::{
+    Condition, ConditionChoice, ConditionParameters, Driven, Fixed, Node, Place, Roller, Side, Wall,
+};
+use crate::input::{Expression, Reader, Unit};
 use crate::math::Vector;
 
 /// Every condition, in every variant that `D` dimensions have.
@@ -87,6 +89,49 @@ fn the_wall_itself_may_move_as_it_does<const D: usize>() {
     });
 }
 
+fn what_stands_still_sets_nothing_in_motion<const D: usize>() {
+    each::<D>(|choice, condition, node, _| {
+        let rest = Vector::zeros();
+        if choice.stands_still() {
+            assert_eq!(condition.impose(&node, &rest), rest, "{choice:?}");
+            assert_eq!(condition.wall_velocity(&node), rest, "{choice:?}");
+        }
+    });
+}
+
+fn what_is_uniform_acts_the_same_all_along_an_axis<const D: usize>() {
+    each::<D>(|choice, condition, node, mut velocity| {
+        for axis in (0..D).filter(|axis| choice.is_uniform_along(*axis)) {
+            velocity[axis] = 0.0;
+            let here = condition.impose(&node, &velocity);
+            assert_eq!(here[axis], 0.0, "{choice:?} along {axis}");
+            let mut other = node;
+            other.position[axis] += 1.5;
+            assert_eq!(condition.impose(&other, &velocity), here, "{choice:?}");
+        }
+    });
+}
+
+fn the_image_of_a_condition_acts_on_the_image_of_a_motion<const D: usize>() {
+    each::<D>(|choice, condition, node, velocity| {
+        for axis in 0..D {
+            let Some(image) = choice.mirrored(axis) else {
+                continue;
+            };
+            assert_eq!(image.mirrored(axis).as_ref(), Some(choice));
+            let reflect = |mut v: Vector<D>| {
+                v[axis] *= -1.0;
+                v
+            };
+            let mut there = node;
+            there.position[axis] = 0.7 - node.position[axis];
+            let found = image.build::<D>().impose(&there, &reflect(velocity));
+            let expected = reflect(condition.impose(&node, &velocity));
+            assert_eq!(found, expected, "{choice:?} across {axis}");
+        }
+    });
+}
+
 #[test]
 fn every_condition_keeps_its_promises_in_every_dimension() {
     imposing_twice_is_imposing_once::<1>();
@@ -98,6 +143,59 @@ fn every_condition_keeps_its_promises_in_every_dimension() {
     the_wall_itself_may_move_as_it_does::<1>();
     the_wall_itself_may_move_as_it_does::<2>();
     the_wall_itself_may_move_as_it_does::<3>();
+    what_stands_still_sets_nothing_in_motion::<1>();
+    what_stands_still_sets_nothing_in_motion::<2>();
+    what_stands_still_sets_nothing_in_motion::<3>();
+    what_is_uniform_acts_the_same_all_along_an_axis::<1>();
+    what_is_uniform_acts_the_same_all_along_an_axis::<2>();
+    what_is_uniform_acts_the_same_all_along_an_axis::<3>();
+    the_image_of_a_condition_acts_on_the_image_of_a_motion::<1>();
+    the_image_of_a_condition_acts_on_the_image_of_a_motion::<2>();
+    the_image_of_a_condition_acts_on_the_image_of_a_motion::<3>();
+}
+
+#[test]
+fn a_condition_that_says_no_more_gives_no_advice() {
+    struct New;
+    impl ConditionParameters for New {
+        fn read(_: &mut Reader<'_>, _: &Place) -> Option<Self> {
+            Some(Self)
+        }
+    }
+    for axis in 0..3 {
+        assert!(!New.is_uniform_along(axis) && New.mirrored(axis).is_none());
+    }
+    assert!(!New.stands_still() && !New.is_one_sided());
+}
+
+#[test]
+fn what_is_known_of_each_condition() {
+    let facts = samples::<2>().into_iter().map(|choice| {
+        let across = [0, 1].map(|axis| choice.is_uniform_along(axis));
+        let images = [0, 1].map(|axis| choice.mirrored(axis).is_some());
+        let name = choice.name();
+        (
+            name,
+            across,
+            images,
+            choice.stands_still(),
+            choice.is_one_sided(),
+        )
+    });
+    // the velocity that is given to the driven ones grows with x
+    let expected = [
+        ("fixed", [true, true], [true, true], true, false),
+        ("roller", [false, true], [true, true], true, false),
+        ("driven", [false, true], [false, true], false, false),
+        ("wall", [false, true], [true, true], true, true),
+        ("wall", [false, true], [true, true], true, true),
+        ("roller", [true, false], [true, true], true, false),
+        ("driven", [false, false], [false, false], false, false),
+        ("wall", [true, false], [true, true], true, true),
+        ("wall", [true, false], [true, true], true, true),
+        ("driven", [false, false], [false, false], false, false),
+    ];
+    assert!(facts.eq(expected));
 }
 
 #[test]

@@ -19,6 +19,23 @@ impl ConditionParameters for Wall {
         };
         Some(Self { side })
     }
+
+    fn is_one_sided(&self) -> bool {
+        true
+    }
+
+    fn stands_still(&self) -> bool {
+        true
+    }
+
+    fn is_uniform_along(&self, axis: usize) -> bool {
+        self.side.axis != axis
+    }
+
+    fn mirrored(&self, axis: usize) -> Option<Self> {
+        let side = self.side.mirrored(axis);
+        Some(Self { side })
+    }
 }
 
 impl<const D: usize> Condition<D> for Wall {

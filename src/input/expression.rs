@@ -182,6 +182,25 @@ impl Expression {
         self.program.contains(&Op::Load(axis as u8))
     }
 
+    /// As a component of a vector field: whether the field has no part along `axis` for it, and is the same all along that axis.
+    pub fn is_uniform_along(&self, axis: usize, component: usize) -> bool {
+        if component == axis {
+            self.is_constant() && self.value(&Variables::default()) == 0.0
+        } else {
+            !self.depends_on_axis(axis)
+        }
+    }
+
+    /// As a component of a vector field: the same component of the field's image in a mirror across `axis`, wherever that stands;
+    /// `None` where that is not certain.
+    pub fn mirrored(&self, axis: usize, component: usize) -> Option<Self> {
+        if component != axis {
+            return (!self.depends_on_axis(axis)).then(|| self.clone());
+        }
+        let value = self.value(&Variables::default());
+        self.is_constant().then(|| Self::constant(-value))
+    }
+
     /// Its value in SI units. Not finite where the formula is not defined.
     pub fn value(&self, at: &Variables) -> f64 {
         if let [Op::Push(value)] = *self.program {

@@ -2,7 +2,6 @@
 //! initial positions meet fewer nodes, and nothing crosses a cell.
 
 use super::{Advice, Subject, cost, locking, stencil};
-use crate::boundary::ConditionChoice;
 use crate::input::Variables;
 use crate::material::Plane;
 use crate::scenario::ReferenceFrame;
@@ -55,9 +54,8 @@ pub fn advise(subject: &Subject) -> Vec<Advice> {
 /// How far the fastest point would come if nothing held it, m; not known where something pushes.
 fn way(subject: &Subject) -> Option<f64> {
     let scenario = subject.scenario;
-    let driven =
-        |spec: &crate::scenario::BoundarySpec| matches!(spec.condition, ConditionChoice::Driven(_));
-    if !scenario.loads.is_empty() || scenario.boundaries.iter().any(driven) {
+    let mut conditions = scenario.boundaries.iter().map(|spec| &spec.condition);
+    if !scenario.loads.is_empty() || !conditions.all(|condition| condition.stands_still()) {
         return None;
     }
     let norm = |vector: &[f64]| vector.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -2,8 +2,7 @@
 
 use super::uniform::{axes as uniform_axes, same};
 use super::{AXES, Advice, Subject, aligned, along, stencil};
-use crate::boundary::{ConditionChoice, Side};
-use crate::input::{Expression, Variables};
+use crate::input::Variables;
 use crate::material::Plane;
 use crate::scenario::{
     BodySpec, BoundarySpec, GridSpec, LoadKind, LoadSpec, PointSet, Region, Scenario,
@@ -66,16 +65,9 @@ impl<'a> Mirror<'a> {
         2.0 * self.middle - x
     }
 
-    fn side(&self, side: Side) -> Side {
-        Side {
-            axis: side.axis,
-            upper: side.upper != (side.axis == self.axis),
-        }
-    }
-
     fn region(&self, on: &Region) -> Region {
         match on {
-            Region::Side(side) => Region::Side(self.side(*side)),
+            Region::Side(side) => Region::Side(side.mirrored(self.axis)),
             Region::Box { min, max } => {
                 let (mut low, mut high) = (min.clone(), max.clone());
                 low[self.axis] = self.place(max[self.axis]);
@@ -94,15 +86,6 @@ impl<'a> Mirror<'a> {
         image
     }
 
-    /// The image of one component of a vector field; none where that is not certain.
-    fn component(&self, a: usize, formula: &Expression) -> Option<Expression> {
-        if a != self.axis {
-            return (!formula.depends_on_axis(self.axis)).then(|| formula.clone());
-        }
-        let value = formula.value(&Variables::default());
-        formula.is_constant().then(|| Expression::constant(-value))
-    }
-
     /// Whether two regions are the same but for round-off.
     fn same_region(&self, a: &Region, b: &Region) -> bool {
         let equal = |(a, b): (&f64, &f64)| a == b || same(*a, *b, self.grid);
@@ -119,36 +102,20 @@ impl<'a> Mirror<'a> {
         }
     }
 
-    fn condition(&self, condition: &ConditionChoice) -> Option<ConditionChoice> {
-        let mut image = condition.clone();
-        match &mut image {
-            ConditionChoice::Fixed(_) | ConditionChoice::Roller(_) => {}
-            ConditionChoice::Wall(wall) => wall.side = self.side(wall.side),
-            ConditionChoice::Driven(driven) => {
-                for (a, component) in driven.velocity.iter_mut().enumerate() {
-                    if let Some(formula) = component {
-                        *component = Some(self.component(a, formula)?);
-                    }
-                }
-            }
-        }
-        Some(image)
-    }
-
     fn load(&self, kind: &LoadKind) -> Option<LoadKind> {
         Some(match kind {
             LoadKind::Force(force) => LoadKind::Force(self.vector(force)),
             LoadKind::Traction { traction, side } => LoadKind::Traction {
                 traction: self.vector(traction),
-                side: self.side(*side),
+                side: side.mirrored(self.axis),
             },
             LoadKind::Pressure { pressure, side } => LoadKind::Pressure {
                 pressure: *pressure,
-                side: self.side(*side),
+                side: side.mirrored(self.axis),
             },
             LoadKind::Acceleration(field) => {
                 let image = field.iter().enumerate();
-                let image = image.map(|(a, formula)| self.component(a, formula));
+                let image = image.map(|(a, formula)| formula.mirrored(self.axis, a));
                 LoadKind::Acceleration(image.collect::<Option<_>>()?)
             }
         })
@@ -158,7 +125,7 @@ impl<'a> Mirror<'a> {
 fn is_symmetric(scenario: &Scenario, sets: &[PointSet], axis: usize) -> bool {
     let mirror = Mirror::new(&scenario.grid, axis);
     let boundary_has_image = |spec: &BoundarySpec| {
-        let (on, condition) = (mirror.region(&spec.on), mirror.condition(&spec.condition));
+        let (on, condition) = (mirror.region(&spec.on), spec.condition.mirrored(axis));
         scenario.boundaries.iter().any(|other| {
             mirror.same_region(&other.on, &on) && Some(&other.condition) == condition.as_ref()
         })

@@ -87,18 +87,9 @@ fn is_uniform(subject: &Subject, axis: usize) -> bool {
 }
 
 /// Whether a vector field has no component along an axis and does not depend on the coordinate along it.
-pub fn moves_across(field: &[Expression], axis: usize) -> bool {
-    field.iter().enumerate().all(|(a, component)| {
-        if a == axis {
-            is_zero(component)
-        } else {
-            !component.depends_on_axis(axis)
-        }
-    })
-}
-
-pub fn is_zero(formula: &Expression) -> bool {
-    formula.is_constant() && formula.value(&Default::default()) == 0.0
+fn moves_across(field: &[Expression], axis: usize) -> bool {
+    let mut components = field.iter().enumerate();
+    components.all(|(component, formula)| formula.is_uniform_along(axis, component))
 }
 
 /// Whether two lengths are the same but for round-off.
@@ -120,23 +111,7 @@ fn boundary_allows(spec: &BoundarySpec, grid: &GridSpec, axis: usize) -> bool {
     {
         return matches!(spec.condition, ConditionChoice::Roller(_));
     }
-    spans(&spec.on, grid, axis)
-        && match &spec.condition {
-            ConditionChoice::Fixed(_) => true,
-            ConditionChoice::Roller(roller) => roller.normal != axis,
-            ConditionChoice::Wall(wall) => wall.side.axis != axis,
-            ConditionChoice::Driven(driven) => {
-                driven.velocity.iter().enumerate().all(|(a, component)| {
-                    component.as_ref().is_none_or(|component| {
-                        if a == axis {
-                            is_zero(component)
-                        } else {
-                            !component.depends_on_axis(axis)
-                        }
-                    })
-                })
-            }
-        }
+    spans(&spec.on, grid, axis) && spec.condition.is_uniform_along(axis)
 }
 
 fn load_allows(load: &LoadSpec, grid: &GridSpec, axis: usize) -> bool {

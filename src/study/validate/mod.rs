@@ -46,6 +46,7 @@ cases! {
     large_bar,
     manufactured,
     vibration,
+    beam,
     vortex,
     uniaxial,
     simple_shear,

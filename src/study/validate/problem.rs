@@ -1,7 +1,7 @@
 //! Cases that can be set up at any resolution and measured against their answer: what speed is charted over.
 
 use super::{
-    Recorded, bar1d, cantilever, column, large_bar, manufactured, vibration, vortex, wave,
+    Recorded, bar1d, beam, cantilever, column, large_bar, manufactured, vibration, vortex, wave,
 };
 
 /// A case at any resolution, and how wrong a run of it is.
@@ -62,6 +62,7 @@ pub const PROBLEMS: &[&Problem] = &[
     &column::PROBLEM,
     &large_bar::PROBLEM,
     &vortex::PROBLEM,
+    &beam::PROBLEM,
     &cantilever::PROBLEM,
 ];
 
