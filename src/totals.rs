@@ -129,3 +129,31 @@ impl<const D: usize> Body<D> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_part_counts() {
+        for count in [0, 1, PART, PART + 1, 3 * PART + 7] {
+            let parts = in_parts(count, |part| part);
+            let rows: Vec<usize> = parts.into_iter().flatten().collect();
+            assert_eq!(rows, (0..count).collect::<Vec<_>>());
+            for largest in [0, count / 2, count.saturating_sub(1)] {
+                let height = |row: usize| if row == largest { 3.0 } else { 2.0 };
+                let of = |part: Range<usize>| part.map(height).fold(0.0, f64::max);
+                let expected = if count == 0 { 0.0 } else { 3.0 };
+                assert_eq!(largest_in_parts(count, of), expected);
+                let nan = |part: Range<usize>| {
+                    if part.contains(&largest) {
+                        f64::NAN
+                    } else {
+                        2.0
+                    }
+                };
+                assert_eq!(largest_in_parts(count, nan).is_nan(), count > 0);
+            }
+        }
+    }
+}

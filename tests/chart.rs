@@ -57,10 +57,18 @@ fn a_small_chart_has_every_run_a_frontier_and_second_order() {
     fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
         [&SMALL[..], &["--frame", "updated", "--cells", "8,16"], more].concat()
     }
+    let started = std::time::Instant::now();
     let output = chart(&folder, &with(&["--tolerance", "0.05"]));
+    let elapsed = started.elapsed().as_secs_f64();
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     let results = json(&output);
-    assert_eq!(results["runs"].as_array().map(Vec::len), Some(4));
+    let runs = results["runs"].as_array().expect("runs");
+    assert_eq!(runs.len(), 4);
+    // whatever the machine does, no run takes longer than the program
+    for run in runs {
+        let wall = run["wall_seconds"].as_f64().expect("a time");
+        assert!(wall > 0.0 && wall < elapsed, "{wall} of {elapsed} s");
+    }
     for series in results["orders"].as_array().expect("orders") {
         let order = series["order_last_two"].as_f64().expect("an order");
         assert!((order - 2.0).abs() < 0.2, "{series}");
@@ -184,6 +192,24 @@ fn a_run_that_blows_up_is_on_the_chart_as_such() {
     assert_eq!(runs.len(), 4);
     assert_eq!(status(0.4), "done");
     assert_ne!(status(5.0), "done");
+
+    // beyond its critical step of 1.05 a vibration grows; a run that comes to its end is told apart from one that is right
+    let grown = [
+        &["manufactured", "--basis=quadratic", "--transfer=flip"][..],
+        &[
+            "--update=usl",
+            "--frame=updated",
+            "--points=2",
+            "--cells=64",
+        ],
+        &["--courant=1.5", "--repeat=1", "--json", "--force"],
+    ]
+    .concat();
+    let results = json(&chart(&folder, &grown));
+    let run = &results["runs"][0];
+    assert_eq!(run["status"], "unstable", "{results}");
+    assert!(run["error"].as_f64().expect("an error") > 1.0);
+    assert_eq!(results["frontier"].as_array().map(Vec::len), Some(0));
 }
 
 #[test]
@@ -256,6 +282,8 @@ fn a_scenario_is_charted_against_a_finer_run_of_itself() {
     let runs = results["runs"].as_array().expect("runs");
     let error = |i: usize| runs[i]["error"].as_f64().expect("an error");
     assert!(error(1) < error(0) && error(0) < 0.5, "{results}");
+    // a reference no finer than that would be this very run
+    assert!(error(1) > 1e-3, "{results}");
     assert!(folder.join("charts/bar1d/chart.csv").is_file());
 }
 

@@ -278,6 +278,100 @@ fn a_force_on_a_rigid_body_does_the_work_that_it_moves_with() {
     });
 }
 
+/// The work of a load is force times way, point by point: a load stays with its points wherever they are stored, and acts in each step
+/// with its factor at the start.
+#[test]
+fn a_load_does_force_times_the_way_of_its_points() {
+    let field = [0.4, -0.3, 0.2];
+    let edge = |dimension: usize| [31.25, 7.25, 3.25][dimension - 1];
+    let scene = |dimension| {
+        let mut scene = flying_box(dimension);
+        let [u, v, w] = &field.map(|a| format!("{a} * x"));
+        scene.rest += &format!(
+            "[[load]]\nbody = \"box\"\non.box = {{ min = {} }}\nacceleration = {}\nfactor = \"1 + 5 * t\"\n",
+            list(dimension, [edge(dimension), 0.0, 0.0]),
+            texts(dimension, [u, v, w])
+        );
+        scene
+    };
+    everywhere(scene, |name, scene, _, run| {
+        let frames = &run.memory.frames;
+        let start = &frames[0].points;
+        let booked = run.column("energy", "external_work");
+        let loaded = |i: &usize| start[*i].position[0] > edge(scene.dimension);
+        let loaded: Vec<usize> = (0..start.len()).filter(loaded).collect();
+        assert!(!loaded.is_empty() && loaded.len() < start.len());
+        let (mut work, mut turned) = (0.0, 0.0);
+        for (row, pair) in frames.windows(2).enumerate() {
+            let factor = 1.0 + 5.0 * pair[0].time;
+            for &i in &loaded {
+                let force = start[i].mass * start[i].position[0] * factor;
+                for a in 0..scene.dimension {
+                    let way = pair[1].points[i].position[a] - pair[0].points[i].position[a];
+                    work += force * field[a] * way;
+                    turned += (force * field[a] * way).abs();
+                }
+            }
+            close(
+                name,
+                "work of the load",
+                booked[row + 1],
+                work,
+                1e-11 * turned,
+            );
+        }
+    });
+}
+
+/// A body that falls from rest has the velocity g t of a wall that is driven so, at the start and at the end of every step: no node is
+/// held back, nothing is strained.
+#[test]
+fn a_wall_that_falls_with_a_body_leaves_it_without_stress() {
+    let scene = |dimension| {
+        let driven = texts(dimension, ["3 * t", "-2 * t", "1 * t"]);
+        let wall = format!(
+            "[[boundary]]\nname = \"grip\"\non.side = \"x_min\"\ncondition.driven = {{ velocity = {driven} }}\n"
+        );
+        let gravity = format!("gravity = {}", list(dimension, [3.0, -2.0, 1.0]));
+        let mut scene = corner_box(dimension, ["0", "0", "0"], &gravity, &wall);
+        scene.steps = 10;
+        scene
+    };
+    everywhere(scene, |name, scene, _, run| {
+        let given = mass(run) * 3.0 * scene.step * f64::from(scene.steps);
+        assert!(last(run, "energy", "elastic") < 1e-20, "{name}");
+        for axis in &AXES[..scene.dimension] {
+            let impulse = last(run, "boundary_grip", &format!("impulse_{axis}"));
+            close(name, "impulse of the wall", impulse, 0.0, 1e-12 * given);
+        }
+    });
+}
+
+/// A point on a node has slopes, but no weight, at nodes around it that no mass may have come to: they have no velocity, not that of
+/// a place at rest.
+#[test]
+fn a_point_on_a_node_flies_without_stress() {
+    let scene = |dimension| {
+        let mut scene = corner_box(dimension, ["3", "2", "1"], "", "");
+        scene.rest = format!(
+            "[[body]]\nname = \"box\"\nmaterial = \"stuff\"\nparticles_per_cell = 1\n\
+             shape.box = {{ min = {}, max = {} }}\nvelocity = {}\n",
+            list(dimension, [0.75; 3]),
+            list(dimension, [1.25; 3]),
+            texts(dimension, ["3", "2", "1"])
+        );
+        scene.steps = 3;
+        scene
+    };
+    everywhere(scene, |name, scene, _, run| {
+        let start = run.memory.frames[0].points[0].position;
+        assert_eq!(start[..scene.dimension], [1.0; 3][..scene.dimension]);
+        for elastic in run.column("energy", "elastic") {
+            assert!(elastic.abs() < 1e-20, "{name}: {elastic:e}");
+        }
+    });
+}
+
 /// APIC returns Σ N (x_i − x) v to the grid in full where Σ N (x_i − x)² does not depend on the place of the point in its
 /// cell: for splines away from the ends of the grid. For the other bases the affine field C is kept rather than the moment,
 /// and what a point's spin weighs changes a little as it moves.

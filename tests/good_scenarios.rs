@@ -336,7 +336,15 @@ fn the_scene_decides_on_frame_and_basis_that_nobody_names() {
     let floor = boundary("side = \"y_min\"", "wall");
     let far = boundary("box = { min = [0.0, 0.7], max = [1.0, 0.8] }", "fixed");
     let near = boundary("box = { min = [0.0, 0.5], max = [1.0, 0.6] }", "fixed");
-    for lines in [&ceiling, &floor, &far, other] {
+    let sides = ["x_min", "x_max"].map(|side| boundary(&format!("side = \"{side}\""), "fixed"));
+    // beside it, to the left and to the right
+    let beside = [("0.0", "0.2"), ("0.8", "1.0")].map(|(min, max)| {
+        let on = format!("box = {{ min = [{min}, 0.0], max = [{max}, 0.5] }}");
+        boundary(&on, "fixed")
+    });
+    let [left, right] = &sides;
+    let [before, behind] = &beside;
+    for lines in [&ceiling, &floor, &far, other, left, right, before, behind] {
         assert_eq!(
             left_to_the_scene(lines, 0.3),
             updated("quadratic"),

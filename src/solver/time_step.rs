@@ -80,8 +80,11 @@ impl TimeStep {
     /// Whether `time`, reached by a step of `dt`, is the one at which to record an instant planned for `next_record`.
     pub fn reached(&self, time: f64, dt: f64, next_record: f64) -> bool {
         match self.rule {
-            // the step nearest to the planned time
-            StepRule::Fixed(_) => time + 0.5 * dt * (1.0 - 1e-9) >= next_record || time >= self.end,
+            // the step nearest to the planned time; the end is met by the last one, and recorded once
+            StepRule::Fixed(_) => {
+                let nearest = time + 0.5 * dt * (1.0 - 1e-9) >= next_record;
+                time >= self.end || (nearest && next_record < self.end)
+            }
             StepRule::Courant(_) => time >= next_record,
         }
     }
@@ -139,5 +142,23 @@ mod tests {
         .collect();
         assert_eq!(sizes[..3], [0.3; 3]);
         assert!((sizes[3] - 0.1).abs() < 1e-15 && sizes.len() == 4);
+    }
+
+    #[test]
+    fn a_row_is_that_of_the_nearest_step_and_the_end_has_one() {
+        let mut steps = TimeStep::new(StepRule::Fixed(0.3), 1.0);
+        let (mut time, mut rows) = (0.0, Vec::new());
+        let planned = [0.4, 0.8, 1.0];
+        while time < 1.0 {
+            let next = planned[rows.len()];
+            let (dt, after) = steps.next(time, next, &limit(1.0));
+            time = after;
+            if steps.reached(time, dt, next) {
+                rows.push(time);
+            }
+        }
+        assert_eq!(rows.len(), 3, "{rows:?}");
+        let close = |(found, nearest): (&f64, f64)| (found - nearest).abs() < 1e-15;
+        assert!(rows.iter().zip([0.3, 0.9, 1.0]).all(close), "{rows:?}");
     }
 }

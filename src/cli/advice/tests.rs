@@ -262,6 +262,9 @@ fn rubber_on_linear_functions_locks() {
         );
     }
     assert_eq!(of("locking", BLOCK, &[rubber]), None);
+    // the cure of linear functions needs no other basis
+    let cured = "method={ frame = \"total\", basis = { linear = { b_bar = true } } }";
+    assert_eq!(of("locking", BLOCK, &[rubber, cured]), None);
 }
 
 #[test]
@@ -287,5 +290,27 @@ fn a_motion_of_a_small_part_of_a_cell_needs_no_moving_functions() {
     ] {
         let change = [&[bare], &change[..]].concat();
         assert_eq!(of("small_motion", BLOCK, &change), None, "{change:?}");
+    }
+}
+
+/// A block at rest falls g t²/2 = 0.1 cells in √(0.2 h/g), and one that flies comes v t far.
+#[test]
+fn a_tenth_of_a_cell_is_the_most_that_counts_as_small() {
+    let falling = ["body[0].velocity=[0, 0]", "grid.cell_size=0.5"];
+    let flying = ["body[0].velocity=[0.3, 0.4]", "gravity=[0, 0]"];
+    let halved = [&flying[..], &falling[1..]].concat();
+    for (scene, longest) in [
+        (&falling[..1], 0.2_f64.sqrt()),
+        (&falling[..], 0.1_f64.sqrt()),
+        (&flying[..], 0.2),
+        (&halved[..], 0.1),
+    ] {
+        for (share, small) in [(0.99, true), (1.01, false)] {
+            let end = format!("time.end={}", share * longest);
+            let bare = ["boundary=[]", "method.basis=\"quadratic\"", &end];
+            let changes = [scene, &bare[..]].concat();
+            let found = of("small_motion", BLOCK, &changes);
+            assert_eq!(found.is_some(), small, "{changes:?}: {found:?}");
+        }
     }
 }

@@ -65,9 +65,9 @@ mod tests {
     fn with(setting: &str) -> f64 {
         let text = include_str!("../../../scenarios/bar1d.toml");
         let overrides = [
-            setting.to_string(),
             "method.basis=\"quadratic\"".into(),
             "method.update=\"usl\"".into(),
+            setting.to_string(),
         ];
         let loaded = parse("bar1d", text, &overrides).expect("a scenario");
         work(&loaded.scenario, 10, 7)
@@ -86,5 +86,20 @@ mod tests {
         let of = |frame: &str| with(&format!("method.frame=\"{frame}\""));
         assert_eq!(of("updated"), 70.0 * 6.0);
         assert_eq!(of("total"), 70.0 * 8.0);
+    }
+
+    #[test]
+    fn two_updates_visit_every_node_twice_as_often_as_the_third() {
+        let of = |update: &str| with(&format!("method.update=\"{update}\""));
+        assert_eq!(of("usl"), 70.0 * 6.0);
+        assert_eq!(of("usf"), 70.0 * 12.0);
+        assert_eq!(of("musl"), 70.0 * 12.0);
+    }
+
+    #[test]
+    fn both_ends_of_a_domain_meet_two_nodes() {
+        let of = |basis: &str| with(&format!("method.basis=\"{basis}\""));
+        assert_eq!(of("linear"), 70.0 * 4.0);
+        assert_eq!(of("cpdi"), 70.0 * 8.0);
     }
 }

@@ -145,3 +145,127 @@ pub fn local_order(trials: &[Trial], index: usize) -> f64 {
         _ => f64::NAN,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::axes::{Value, axis};
+    use super::*;
+    use crate::study::validate::PROBLEMS;
+
+    /// A setting of the case "manufactured", with two points a cell.
+    fn setting(method: [&'static str; 4], courant: f64, cells: u32) -> Setting {
+        let [frame, basis, transfer, update] = method.map(Value::Name);
+        let mut values = vec![Value::Count(1); 8];
+        for (name, value) in [
+            ("frame", frame),
+            ("basis", basis),
+            ("transfer", transfer),
+            ("update", update),
+            ("points", Value::Count(2)),
+            ("courant", Value::Number(courant)),
+            ("cells", Value::Count(cells)),
+        ] {
+            values[axis(name)] = value;
+        }
+        Setting(values)
+    }
+
+    fn trial(setting: Setting, error: f64) -> Trial {
+        let done = error.is_finite();
+        Trial {
+            setting,
+            status: if done { Status::Done } else { Status::Failed },
+            message: String::new(),
+            error,
+            wall: 1.0,
+            work: 1.0,
+            particles: 10,
+            steps: 10,
+            dt: 0.1,
+            cell_size: 1.0,
+        }
+    }
+
+    fn subject() -> Subject {
+        named("manufactured")
+    }
+
+    fn named(name: &str) -> Subject {
+        let problem = PROBLEMS.iter().find(|problem| problem.name == name);
+        Subject::Problem(problem.expect("the case"))
+    }
+
+    const QUADRATIC: [&str; 4] = ["updated", "quadratic", "apic", "usl"];
+    const MUSL: [&str; 4] = ["updated", "quadratic", "apic", "musl"];
+
+    /// Errors of third order from 8 to 16 cells and of first from 16 to 32, in any order of the runs.
+    #[test]
+    fn a_series_has_the_order_of_its_two_finest_grids_and_of_all() {
+        let runs = [(16, 0.02), (32, 0.01), (8, 0.16)];
+        let mut trials: Vec<Trial> = runs
+            .iter()
+            .map(|(cells, error)| trial(setting(QUADRATIC, 0.4, *cells), *error))
+            .collect();
+        trials.push(trial(setting(MUSL, 0.4, 8), 0.3));
+        let all = series(&subject(), &trials);
+        assert_eq!(all.len(), 2);
+        let one = &all[0];
+        assert_eq!(one.setting, setting(QUADRATIC, 0.4, 8));
+        assert_eq!(
+            (&one.cells[..], &one.errors[..]),
+            (&[8.0, 16.0, 32.0][..], &[0.16, 0.02, 0.01][..])
+        );
+        assert!((one.last - 1.0).abs() < 1e-12 && (one.fit - 2.0).abs() < 1e-12);
+        assert_eq!(one.failed, 0);
+        assert!(all[1].last.is_nan());
+        let local: Vec<f64> = (0..4).map(|i| local_order(&trials, i)).collect();
+        assert!((local[0] - 3.0).abs() < 1e-12 && (local[1] - 1.0).abs() < 1e-12);
+        assert!(local[2].is_nan() && local[3].is_nan());
+
+        // without the finest there is no order of the finest
+        trials[1] = trial(setting(QUADRATIC, 0.4, 32), f64::NAN);
+        let one = &series(&subject(), &trials)[0];
+        assert!(one.last.is_nan() && (one.fit - 3.0).abs() < 1e-12);
+        assert_eq!((one.failed, one.cells.len()), (1, 2));
+    }
+
+    #[test]
+    fn the_best_update_errs_least_on_the_finest_grid_with_the_smallest_steps() {
+        let trials = [
+            trial(setting(QUADRATIC, 0.2, 8), 0.1),
+            trial(setting(QUADRATIC, 0.2, 16), 0.04),
+            trial(setting(MUSL, 0.2, 8), 0.2),
+            trial(setting(MUSL, 0.2, 16), 0.02),
+            // longer steps are not asked
+            trial(setting(QUADRATIC, 0.5, 16), 0.001),
+        ];
+        let best = |trials: &[Trial]| -> Vec<String> {
+            let all = series(&subject(), trials);
+            let best = best_updates(&all);
+            let name = |s: &&Series| s.setting.get("update").to_string();
+            best.iter().map(name).collect()
+        };
+        assert_eq!(best(&trials), ["musl"]);
+        // one that fails is never the best
+        let mut failing = trials.to_vec();
+        failing[2] = trial(setting(MUSL, 0.2, 8), f64::NAN);
+        assert_eq!(best(&failing), ["usl"]);
+    }
+
+    #[test]
+    fn what_is_expected_of_a_method_is_said_of_it_alone() {
+        let of = |case, method| expected(&named(case), &setting(method, 0.4, 8)).map(|e| e.order);
+        let second = of("manufactured", QUADRATIC);
+        assert_eq!(second, Some(2.0));
+        assert_eq!(of("manufactured", MUSL), second);
+        let with = |frame, transfer, update| [frame, "quadratic", transfer, update];
+        let first = with("updated", "apic", "usf");
+        assert_eq!(of("manufactured", first), Some(1.0));
+        assert_eq!(of("manufactured", with("updated", "pic", "usl")), None);
+        // cells that are crossed are those of the updated frame
+        assert_eq!(of("manufactured_large", QUADRATIC), Some(0.0));
+        let total = with("total", "apic", "usl");
+        assert_eq!(of("manufactured_large", total), None);
+        assert_eq!(of("manufactured", total), second);
+    }
+}

@@ -7,7 +7,7 @@
 //! The staircase of the rims is no worse than a cell, and what it adds at one place it takes at another: the frequency converges with
 //! the cells, not evenly.
 
-use super::compare::{chart, curve};
+use super::compare::{chart, curve, larger};
 use super::history::frequency_near;
 use super::{Case, CaseError, Report};
 use crate::observe::Frame;
@@ -73,9 +73,7 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
                 .zip(&exact)
                 .map(|(a, b)| (a - b).abs())
                 .collect();
-            let worst = wrong
-                .iter()
-                .fold(0.0, |most: f64, x| if *x <= most { most } else { *x });
+            let worst = wrong.iter().copied().fold(0.0, larger);
             report.at_most(
                 "16 cells over the wall: largest error of the displacement / amplitude",
                 worst / (SPEED / omega),

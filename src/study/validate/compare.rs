@@ -30,16 +30,13 @@ pub fn map(column: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
 
 /// Largest `|computed − exact|`.
 pub fn largest(computed: &[f64], exact: &[f64]) -> f64 {
-    // not `f64::max`, which would forget a NaN
-    let worst = |worst: f64, difference: f64| {
-        if difference <= worst {
-            worst
-        } else {
-            difference
-        }
-    };
     let differences = computed.iter().zip(exact).map(|(c, e)| (c - e).abs());
-    differences.fold(0.0, worst)
+    differences.fold(0.0, larger)
+}
+
+/// The larger of two; not a number if one of them is not, which `f64::max` would forget.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b <= a { a } else { b }
 }
 
 /// Orders of convergence between neighbours: ln(e₁/e₂) / ln(h₁/h₂).
@@ -59,4 +56,34 @@ pub fn root_mean(points: &[Point], square: impl Fn(usize, &Point) -> f64) -> f64
         .map(|(i, point)| point.initial_volume * square(i, point))
         .sum();
     (sum / volume).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_order_of_a_power_is_its_exponent_whatever_the_sizes() {
+        let sizes = [0.3, 0.1, 0.02];
+        let found = orders(&sizes, &sizes.map(|h: f64| 7.0 * h.powf(1.5)));
+        assert_eq!(found.len(), 2);
+        assert!(found.iter().all(|order| (order - 1.5).abs() < 1e-12));
+    }
+
+    #[test]
+    fn the_largest_difference_is_not_hidden_by_what_is_no_number() {
+        assert_eq!(largest(&[1.0, 5.0, 2.0], &[1.5, 3.0, 2.0]), 2.0);
+        assert!(largest(&[f64::NAN, 5.0], &[1.0, 3.0]).is_nan());
+        assert!(largest(&[5.0, f64::NAN, 1.0], &[3.0, 1.0, 1.0]).is_nan());
+    }
+
+    #[test]
+    fn points_count_by_their_volume() {
+        let of = |initial_volume| Point {
+            initial_volume,
+            ..Point::default()
+        };
+        let mean = root_mean(&[of(1.0), of(3.0)], |i, _| [4.0, 0.0][i]);
+        assert_eq!(mean, 1.0);
+    }
 }

@@ -10,7 +10,7 @@
 //! strained by 16 % and points cross cells, forces are sums over points that no longer tile the cells evenly: an error that does
 //! not fall with h and in the end rules.
 
-use super::compare::{chart, curve, orders, root_mean};
+use super::compare::{chart, curve, larger, orders, root_mean};
 use super::problem::{SECOND, cell_size, displacement_error};
 use super::{Case, CaseError, Expected, Layout, Problem, Recorded, Report, set};
 use crate::report::Style;
@@ -186,8 +186,7 @@ fn error(motion: &Recorded, amplitude: f64) -> f64 {
         let error = root_mean(&frame.points, |i, point| {
             sum(&|axis| point.position[axis] - start[i].position[axis] - exact(i, axis))
         });
-        // a NaN stays
-        worst = if error <= worst { worst } else { error };
+        worst = larger(worst, error);
         size = size.max(root_mean(&frame.points, |i, _| sum(&|axis| exact(i, axis))));
     }
     worst / size

@@ -140,3 +140,46 @@ impl Report {
         !self.checks.is_empty() && self.checks.iter().all(|check| check.passed)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn passes(claim: impl Fn(&mut Report)) -> bool {
+        let mut report = Report::default();
+        claim(&mut report);
+        assert_eq!(report.passed(), report.checks[0].passed);
+        report.passed()
+    }
+
+    #[test]
+    fn a_figure_passes_on_the_right_side_of_its_limits_only() {
+        for (figure, low, high, near) in [
+            (0.9, false, true, false),
+            (1.0, true, true, true),
+            (1.05, true, false, true),
+            (1.2, true, false, false),
+            (-1.0, false, true, false),
+            // what is no number, or no finite one, is never right
+            (f64::NAN, false, false, false),
+            (f64::INFINITY, false, false, false),
+            (f64::NEG_INFINITY, false, false, false),
+        ] {
+            assert_eq!(passes(|r| r.at_least("", figure, 1.0)), low, "{figure}");
+            assert_eq!(passes(|r| r.at_most("", figure, 1.0)), high, "{figure}");
+            let close = |r: &mut Report| r.close("", figure, 1.03, 0.04);
+            assert_eq!(passes(close), near, "{figure}");
+        }
+    }
+
+    #[test]
+    fn a_case_passes_if_all_of_its_figures_do_and_there_are_any() {
+        let mut report = Report::default();
+        assert!(!report.passed(), "nothing was measured");
+        report.at_most("good", 1.0, 2.0);
+        assert!(report.passed());
+        report.at_most("bad", 3.0, 2.0);
+        report.at_most("good again", 1.0, 2.0);
+        assert!(!report.passed());
+    }
+}

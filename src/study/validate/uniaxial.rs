@@ -3,6 +3,7 @@
 //! The figures that the CB-Geo benchmark of this name is checked against, to eight decimals, in its `test_benchmark.py` (inputs
 //! in `mpm.json`; github.com/cb-geo/mpm-benchmarks, 2d/uniaxial_stress): σ_yy = E ε = −1 Pa, σ_xx = 0. The classical rate law adds E Δt ∂v/∂y in each step, with ∂v/∂y = −0.01 /s on the fixed grid, so −1 Pa holds to round-off.
 
+use super::compare::larger;
 use super::history::{last, points};
 use super::{Case, CaseError, Report};
 use crate::report::{LineChart, Series, Style};
@@ -37,11 +38,7 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
             .iter()
             .enumerate()
             .flat_map(|(row, all)| all.iter().map(move |s| (s - exact(row)).abs()));
-        // a NaN is the worst of all
-        errors.fold(
-            0.0,
-            |most: f64, error| if error <= most { most } else { error },
-        )
+        errors.fold(0.0, larger)
     };
     let (along, across, shear) = (component(1, 1), component(0, 0), component(0, 1));
     let end = &along[along.len() - 1..];
