@@ -2,7 +2,7 @@
 //!
 //! Tube, a ≤ r ≤ b, ends held, Lamé's closed form with q = p a²/(b² − a²): σ_r = q (1 − b²/r²), σ_θ = q (1 + b²/r²),
 //! u = q (1 + ν)/E · ((1 − 2ν) r + b²/r). The pressure acts on the innermost layer of points, h/4 inside the wall, and through
-//! them on the nodes within a cell or two: displacements converge to first order, and stresses alternate from layer to layer
+//! them on the nodes within a cell or two: with quadratic splines displacements at the loaded rim converge to first order, and stresses alternate from layer to layer
 //! close to the wall, which is over after four cells.
 //!
 //! Ring, radius R, ν = 0: only the hoop carries stress, E u/R: u = v₀/ω sin ωt with ω = √(E/ρ)/R.
