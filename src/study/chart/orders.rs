@@ -173,6 +173,7 @@ mod tests {
     fn trial(setting: Setting, error: f64) -> Trial {
         let done = error.is_finite();
         Trial {
+            default: false,
             setting,
             status: if done { Status::Done } else { Status::Failed },
             message: String::new(),
