@@ -2,7 +2,7 @@
 
 mod common;
 
-use mpm::run::build;
+use mpm::run::{Scene, build};
 use mpm::scenario::parse;
 use mpm::study::validate::simulate;
 use std::path::PathBuf;
@@ -36,6 +36,25 @@ fn check(name: &str, text: &str) -> serde_json::Value {
         .expect("the program starts");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {said}"))
+}
+
+/// A step, s.
+const STEP: f64 = 1e-3;
+
+/// What a scene has before its first step, and after it.
+fn around_a_step<T>(text: &str, of: impl Fn(&Scene<2>) -> T) -> [T; 2] {
+    let loaded = parse("block", text, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let mut scene = build::<2>(&loaded.scenario);
+    scene
+        .solver
+        .start(&mut scene.state)
+        .unwrap_or_else(|fault| panic!("{fault}"));
+    let before = of(&scene);
+    scene
+        .solver
+        .step(&mut scene.state, STEP)
+        .unwrap_or_else(|fault| panic!("{fault}"));
+    [before, of(&scene)]
 }
 
 #[track_caller]
@@ -88,18 +107,8 @@ fn loads_give_the_force_that_is_told() {
     ] {
         let text = format!("{BLOCK}\n[[load]]\nname = \"{kind}\"\nbody = \"block\"\n{load}\n");
         let plan = check(kind, &text);
-        let loaded = parse(kind, &text, &[]).unwrap_or_else(|error| panic!("{error}"));
-        let mut scene = build::<2>(&loaded.scenario);
-        let (state, solver) = (&mut scene.state, &mut scene.solver);
-        solver
-            .start(state)
-            .unwrap_or_else(|fault| panic!("{fault}"));
-        let before = state.bodies[0].totals().momentum;
-        let dt = 1e-3;
-        solver
-            .step(state, dt)
-            .unwrap_or_else(|fault| panic!("{fault}"));
-        let given = (state.bodies[0].totals().momentum - before) / dt;
+        let [before, after] = around_a_step(&text, |scene| scene.state.bodies[0].totals().momentum);
+        let given = (after - before) / STEP;
         for a in 0..2 {
             let told = number(&plan["loads"][0]["force"][a]);
             assert!((told - exact[a]).abs() < 1e-11, "{kind}: {told}");
@@ -119,18 +128,9 @@ fn a_traction_acts_on_the_face_it_is_given_for() {
     ] {
         let load = format!("on.side = \"{side}\"\ntraction = [1, -2]");
         let text = format!("{BLOCK}\n[[load]]\nbody = \"block\"\n{load}\n");
-        let loaded = parse(side, &text, &[]).unwrap_or_else(|error| panic!("{error}"));
-        let mut scene = build::<2>(&loaded.scenario);
-        let (state, solver) = (&mut scene.state, &mut scene.solver);
-        solver
-            .start(state)
-            .unwrap_or_else(|fault| panic!("{fault}"));
-        let before = solver.angular_momentum(state, 0)[0];
-        let dt = 1e-3;
-        solver
-            .step(state, dt)
-            .unwrap_or_else(|fault| panic!("{fault}"));
-        let torque = (solver.angular_momentum(state, 0)[0] - before) / dt;
+        let spin = |scene: &Scene<2>| scene.solver.angular_momentum(&scene.state, 0)[0];
+        let [before, after] = around_a_step(&text, spin);
+        let torque = (after - before) / STEP;
         let exact = length * (place[0] * -2.0 - place[1]);
         assert!((torque - exact).abs() < 1e-9, "{side}: {torque}, {exact}");
     }
@@ -141,19 +141,12 @@ fn a_traction_acts_on_the_face_it_is_given_for() {
 fn a_force_is_shared_by_mass() {
     let text = BLOCK.replace("dimension = 2", "dimension = 2\nplane = \"axisymmetric\"")
         + "[[load]]\nbody = \"block\"\non.box = { min = [0, 0] }\nforce = [0, 5]\n";
-    let loaded = parse("rings", &text, &[]).unwrap_or_else(|error| panic!("{error}"));
-    let mut scene = build::<2>(&loaded.scenario);
-    let (state, solver) = (&mut scene.state, &mut scene.solver);
-    solver
-        .start(state)
-        .unwrap_or_else(|fault| panic!("{fault}"));
-    let dt = 1e-3;
-    solver
-        .step(state, dt)
-        .unwrap_or_else(|fault| panic!("{fault}"));
-    let body = &state.bodies[0];
-    let exact = 5.0 * dt / body.totals().mass;
-    for v in &body.particles.velocity {
+    let [_, (mass, velocities)] = around_a_step(&text, |scene| {
+        let body = &scene.state.bodies[0];
+        (body.totals().mass, body.particles.velocity.clone())
+    });
+    let exact = 5.0 * STEP / mass;
+    for v in velocities {
         assert!((v[1] / exact - 1.0).abs() < 1e-9, "{}, {exact}", v[1]);
     }
 }

@@ -7,7 +7,7 @@ use crate::input::Variables;
 use crate::material::Plane;
 use crate::run::{Scene, SceneVisitor};
 use crate::scenario::{
-    LoadKind, LoadSpec, PointSet, ReferenceFrame, Region, Scenario, Scheme, StepRule, body_points,
+    LoadKind, LoadSpec, PointSet, ReferenceFrame, Region, Scenario, StepRule, body_points,
 };
 use crate::solver::TimeStep;
 use serde::Serialize;
@@ -194,7 +194,7 @@ impl SceneVisitor for Planner<'_> {
             plane: plane(scenario),
             basis: scenario.method.basis.name(),
             transfer: scenario.method.transfer.name(),
-            update: update(scenario.method.update),
+            update: scenario.method.update.name(),
             frame: scenario.method.frame.name(),
             defaults: scenario
                 .method
@@ -229,14 +229,6 @@ fn plane(scenario: &Scenario) -> Option<&'static str> {
         (_, Plane::Strain) => Some("plane strain"),
         (_, Plane::Stress) => Some("plane stress"),
         (_, Plane::Axisymmetric) => Some("axisymmetric"),
-    }
-}
-
-fn update(scheme: Scheme) -> &'static str {
-    match scheme {
-        Scheme::UpdateStressFirst => "usf",
-        Scheme::UpdateStressLast => "usl",
-        Scheme::ModifiedUpdateStressLast => "musl",
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a chart varies. An axis is one entry of [`AXES`]: its option, its column and its place in a scenario follow from it.
 
 use crate::basis::BasisChoice;
-use crate::scenario::ReferenceFrame;
+use crate::scenario::{Method, ReferenceFrame};
 use crate::transfer::TransferChoice;
 use std::fmt;
 
@@ -202,6 +202,17 @@ impl Axis {
         let names = self.values.names().iter();
         names.map(|name| Value::Name(name)).collect()
     }
+}
+
+/// The axes of a method, and its values on them; of a transfer its name alone.
+pub fn names_of(method: &Method) -> [(&'static str, Value); 4] {
+    [
+        ("frame", method.frame.name()),
+        ("basis", method.basis.name()),
+        ("transfer", method.transfer.name()),
+        ("update", method.update.name()),
+    ]
+    .map(|(axis, name)| (axis, Value::Name(name)))
 }
 
 /// Index of the axis of a name.

@@ -1,6 +1,6 @@
 //! What is charted: a case with a known answer, or a scenario file against a finer run of itself.
 
-use super::axes::{Setting, Sweep, Value, axis};
+use super::axes::{Setting, Sweep, Value, axis, names_of};
 use super::signals::{Signals, Watch, places};
 use crate::observe::{Frame, Memory, Sink};
 use crate::run::{Progress, RunError, Scene, SceneVisitor, Summary, drive, with_scene};
@@ -69,13 +69,10 @@ impl FileSubject {
     /// What the runs of a chart are compared with: the file's own method with twice the cells of the finest of them, the most
     /// points and the smallest Courant number.
     pub fn reference_setting(&self, sweep: &Sweep) -> Setting {
-        let method = &self.scenario.method;
-        let own = |name: &'static str| Value::Name(name);
         let mut values: Vec<Value> = sweep.0.iter().map(|values| values[0]).collect();
-        values[axis("frame")] = own(method.frame.name());
-        values[axis("basis")] = own(method.basis.name());
-        values[axis("transfer")] = own(method.transfer.name());
-        values[axis("update")] = own(method.update.name());
+        for (name, value) in names_of(&self.scenario.method) {
+            values[axis(name)] = value;
+        }
         let numbers = |name: &str| sweep.on(name).iter().map(|value| value.number());
         let most = |name: &str| numbers(name).fold(0.0, f64::max);
         values[axis("points")] = Value::Count(most("points") as u32);

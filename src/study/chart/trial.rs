@@ -1,6 +1,6 @@
 //! One setting: run, measured, and timed.
 
-use super::axes::{Setting, Value};
+use super::axes::{Setting, names_of};
 use super::cost::work;
 use super::frontier::median;
 use super::subject::{Nowhere, Subject, run};
@@ -103,14 +103,8 @@ pub fn trial(subject: &Subject, setting: &Setting, scenario: &Scenario, repeats:
 
 fn has_default_method(setting: &Setting, scenario: &Scenario) -> bool {
     scenario.default_method().is_some_and(|method| {
-        let own = [
-            ("frame", method.frame.name()),
-            ("basis", method.basis.name()),
-            ("transfer", method.transfer.name()),
-            ("update", method.update.name()),
-        ];
-        own.iter()
-            .all(|(axis, name)| setting.get(axis) == Value::Name(name))
+        let mut own = names_of(&method).into_iter();
+        own.all(|(axis, name)| setting.get(axis) == name)
     })
 }
 

@@ -13,9 +13,9 @@
 //! change nothing at all.
 
 use super::compare::{chart, curve, largest, map, orders};
-use super::problem::{SECOND, displacement_error};
+use super::problem::{SECOND_ORDER, displacement_error};
 use super::swing::Swing;
-use super::{Case, CaseError, Expected, Layout, Problem, Recorded, Report, rms, set};
+use super::{Case, CaseError, Layout, Problem, Recorded, Report, rms, set};
 use crate::report::Style;
 use std::f64::consts::PI;
 
@@ -45,11 +45,7 @@ pub const PROBLEM: Problem = Problem {
     cells: |_| &[8, 16, 32, 64],
     points: &[1, 2, 3],
     doubt: 0.0,
-    expected: &[
-        Expected { basis: "linear", order: 2.0, source: SECOND },
-        Expected { basis: "gimp", order: 2.0, source: SECOND },
-        Expected { basis: "quadratic", order: 2.0, source: SECOND },
-    ],
+    expected: SECOND_ORDER,
 };
 
 /// So slow, m/s, that the nonlinear part of the law is below 1e-7 of the motion.

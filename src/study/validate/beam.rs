@@ -24,8 +24,8 @@
 
 use super::compare::{chart, curve, orders};
 use super::history::frequency_near;
-use super::problem::{SECOND, displacement_error};
-use super::{Case, CaseError, Expected, Layout, Problem, Report};
+use super::problem::{SECOND_ORDER, displacement_error};
+use super::{Case, CaseError, Layout, Problem, Report};
 use crate::report::{LineChart, Style};
 use std::f64::consts::{PI, TAU};
 
@@ -59,23 +59,7 @@ pub const PROBLEM: Problem = Problem {
     cells: |_| &[2, 4, 8, 12],
     points: &[1, 2],
     doubt: 0.0,
-    expected: &[
-        Expected {
-            basis: "linear",
-            order: 2.0,
-            source: SECOND,
-        },
-        Expected {
-            basis: "gimp",
-            order: 2.0,
-            source: SECOND,
-        },
-        Expected {
-            basis: "quadratic",
-            order: 2.0,
-            source: SECOND,
-        },
-    ],
+    expected: SECOND_ORDER,
 };
 
 const SCENARIO: &str = include_str!("../../../scenarios/beam.toml");

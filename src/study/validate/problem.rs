@@ -69,6 +69,25 @@ pub const PROBLEMS: &[&Problem] = &[
 /// Second order for smooth motion, in which no point leaves its cell.
 pub(super) const SECOND: &str = "expected: weights and slopes that are exact for linear fields, points in fixed places of their cells";
 
+/// Second order, of every basis of which it is expected.
+pub(super) const SECOND_ORDER: &[Expected] = &[
+    Expected {
+        basis: "linear",
+        order: 2.0,
+        source: SECOND,
+    },
+    Expected {
+        basis: "gimp",
+        order: 2.0,
+        source: SECOND,
+    },
+    Expected {
+        basis: "quadratic",
+        order: 2.0,
+        source: SECOND,
+    },
+];
+
 /// Root of the sum over recorded times and points of V⁰ |u − u_exact|², over the same of u_exact. The exact displacement is a
 /// function of the initial position and the time.
 pub(super) fn displacement_error(

@@ -12,8 +12,8 @@
 
 use super::compare::{chart, curve};
 use super::history::frequency_near;
-use super::problem::{SECOND, displacement_error};
-use super::{Case, CaseError, Expected, Layout, Problem, Report, set};
+use super::problem::{SECOND_ORDER, displacement_error};
+use super::{Case, CaseError, Layout, Problem, Report, set};
 use crate::report::Style;
 use std::f64::consts::PI;
 
@@ -52,23 +52,7 @@ pub const PROBLEM: Problem = Problem {
     cells: |_| &[16, 32, 64, 128],
     points: &[1, 2, 3],
     doubt: 0.0,
-    expected: &[
-        Expected {
-            basis: "linear",
-            order: 2.0,
-            source: SECOND,
-        },
-        Expected {
-            basis: "gimp",
-            order: 2.0,
-            source: SECOND,
-        },
-        Expected {
-            basis: "quadratic",
-            order: 2.0,
-            source: SECOND,
-        },
-    ],
+    expected: SECOND_ORDER,
 };
 
 fn beta(mode: u32) -> f64 {
