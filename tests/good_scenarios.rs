@@ -331,6 +331,10 @@ fn the_scene_decides_on_frame_and_basis_that_nobody_names() {
     assert_eq!(left_to_the_scene("", 0.3), total("linear"));
     assert_eq!(left_to_the_scene(&base, 0.3), total("linear"));
     assert_eq!(left_to_the_scene(&base, 0.4), total("quadratic"));
+    // on its way to rest, or not
+    let damped = |rate: f64| format!("{base}[damping]\nrate = {rate}\n");
+    assert_eq!(left_to_the_scene(&damped(2.0), 0.3), total("quadratic"));
+    assert_eq!(left_to_the_scene(&damped(0.0), 0.3), total("linear"));
     // a ceiling that it may hit, a floor that it may leave, another body, a support that it does not reach
     let ceiling = boundary("side = \"y_max\"", "fixed");
     let floor = boundary("side = \"y_min\"", "wall");

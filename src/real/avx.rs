@@ -200,6 +200,12 @@ impl Real for Avx {
         }
     }
     #[inline(always)]
+    fn write_padded(rows: [&mut [f64; 4]; 4], numbers: &[Self]) {
+        assert!(numbers.len() <= 4);
+        // SAFETY: the rows hold four numbers each; AVX2 as for `Avx`
+        unsafe { write(rows.map(|row| row.as_mut_ptr()), numbers) };
+    }
+    #[inline(always)]
     fn prefetch(from: *const f64, count: usize) {
         for line in 0..count.div_ceil(8) {
             // SAFETY: a prefetch reads nothing

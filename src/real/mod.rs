@@ -60,6 +60,9 @@ pub trait Real:
     /// the first row counts.
     fn read_padded(rows: [&[f64; 4]; 4], numbers: &mut [Self]);
 
+    /// Writes what [`Self::read_padded`] reads, and leaves the rest of the rows.
+    fn write_padded(rows: [&mut [f64; 4]; 4], numbers: &[Self]);
+
     /// Asks the processor for the cache lines of `count` numbers that are needed soon. The address may be any; nothing is read.
     #[inline(always)]
     fn prefetch(from: *const f64, count: usize) {

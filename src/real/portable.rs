@@ -106,6 +106,14 @@ impl Real for Portable {
         }
     }
     #[inline(always)]
+    fn write_padded(rows: [&mut [f64; 4]; 4], numbers: &[Self]) {
+        for (k, row) in rows.into_iter().enumerate() {
+            for (to, number) in row.iter_mut().zip(numbers) {
+                *to = number.0[k];
+            }
+        }
+    }
+    #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         // not f64::mul_add: without the instruction it is a slow library call
         let a = self;

@@ -42,6 +42,10 @@ impl Real for f64 {
         numbers.copy_from_slice(&rows[0][..numbers.len()]);
     }
     #[inline(always)]
+    fn write_padded(rows: [&mut [f64; 4]; 4], numbers: &[Self]) {
+        rows[0][..numbers.len()].copy_from_slice(numbers);
+    }
+    #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         // not f64::mul_add: without the instruction it is a slow library call
         self * b + c

@@ -120,6 +120,12 @@ fn rows<R: Real, const WIDTH: usize>() {
                 assert_eq!(numbers[i].lane(k), (10 * (1 + 2 * k) + i) as f64);
             }
         }
+        let mut written = [[-1.0; 4]; 4];
+        R::write_padded(written.each_mut(), &numbers);
+        for (k, row) in written.iter().enumerate() {
+            assert_eq!(row[..WIDTH], padded[1 + 2 * k][..WIDTH]);
+            assert!(row[WIDTH..].iter().all(|left| *left == -1.0));
+        }
     }
 }
 

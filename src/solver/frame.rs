@@ -6,7 +6,7 @@
 //! P : Ḟ = τ : Ḟ F⁻¹, so that P = τ F⁻ᵀ, F at the end of the step as τ is, and f_i = −Σ V₀ P ∇₀N_i.
 
 use crate::material::Rate;
-use crate::math::{Matrix, packed_len};
+use crate::math::packed_len;
 use crate::real::{Portable, Real};
 use crate::state::Body;
 use crate::tensor::Tensor;
@@ -15,14 +15,9 @@ use std::ops::Range;
 /// Points that are computed together.
 const GROUP: usize = 4;
 
-/// Carries the deformation gradients F of some points over a step, and turns their rates from Ḟ into L.
-pub(super) fn deform<const D: usize>(
-    f: &mut [Matrix<D>],
-    rates: &mut [Rate<D>],
-    dt: f64,
-    wide: bool,
-) {
-    assert_eq!(f.len(), rates.len());
+/// Carries the deformation gradients F of some points, D² numbers each, over a step, and turns their rates from Ḟ into L.
+pub(super) fn deform<const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64, wide: bool) {
+    assert_eq!(f.len(), D * D * rates.len());
     #[cfg(target_arch = "x86_64")]
     if wide && crate::real::wide_instructions() {
         // SAFETY: the instructions were just found
@@ -33,19 +28,20 @@ pub(super) fn deform<const D: usize>(
     deform_all::<Portable, D>(f, rates, dt);
 }
 
-/// First Piola–Kirchhoff stresses P, Pa, of points with deformation gradients F and Kirchhoff stresses τ, Pa, packed.
+/// First Piola–Kirchhoff stresses P, Pa, of points with deformation gradients F, D² numbers each, and Kirchhoff stresses τ, Pa,
+/// packed.
 pub(super) fn pull_back<const D: usize>(
-    f: &[Matrix<D>],
+    f: &[f64],
     stress: &[f64],
-    first_piola: &mut [Matrix<D>],
+    first_piola: &mut [f64],
     wide: bool,
 ) {
-    assert_eq!(stress.len(), packed_len(D) * f.len());
+    assert_eq!(stress.len() * D * D, packed_len(D) * f.len());
     assert_eq!(first_piola.len(), f.len());
     #[cfg(target_arch = "x86_64")]
     if wide && crate::real::wide_instructions() {
         // SAFETY: the instructions were just found
-        unsafe { wide::pull_back(f, stress, first_piola) };
+        unsafe { wide::pull_back::<D>(f, stress, first_piola) };
         return;
     }
     let _ = wide;
@@ -53,79 +49,111 @@ pub(super) fn pull_back<const D: usize>(
 }
 
 #[inline(always)]
-fn deform_all<R: Real, const D: usize>(f: &mut [Matrix<D>], rates: &mut [Rate<D>], dt: f64) {
-    let mut numbers = [R::splat(0.0); 12];
-    for (f, rates) in f.chunks_mut(GROUP).zip(rates.chunks_mut(GROUP)) {
-        // copies, because the last group may have fewer points; what the others get depends on none of them
-        let mut four = [Matrix::<D>::identity().data.0; GROUP];
-        let mut padded = [[[0.0; 4]; D]; GROUP];
-        for k in 0..f.len() {
-            four[k] = f[k].data.0;
-            padded[k] = rates[k].0;
-        }
-        let four = four.as_flattened_mut().as_flattened_mut();
-        let padded = padded.as_flattened_mut().as_flattened_mut();
-        R::read_rows(four, &mut numbers[..D * D]);
-        let start = from_columns::<R, D>(&numbers, D);
-        R::read_rows(padded, &mut numbers[..4 * D]);
-        let rate = from_columns::<R, D>(&numbers, 4);
-        let spatial = rate * start.inverse();
-        to_columns(&spatial, &mut numbers, 4);
-        R::write_rows(padded, &numbers[..4 * D]);
-        let end = rate.scaled_plus(R::splat(dt), start);
-        to_columns(&end, &mut numbers, D);
-        R::write_rows(four, &numbers[..D * D]);
-        for (k, f) in f.iter_mut().enumerate() {
-            f.as_mut_slice()
-                .copy_from_slice(&four[k * D * D..(k + 1) * D * D]);
-        }
-        for (k, rate) in rates.iter_mut().enumerate() {
-            let own = &padded[4 * D * k..4 * D * (k + 1)];
-            rate.0.as_flattened_mut().copy_from_slice(own);
-        }
+fn deform_all<R: Real, const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64) {
+    let mut groups = f.chunks_exact_mut(GROUP * D * D);
+    let mut rates = rates.chunks_exact_mut(GROUP);
+    for (f, rates) in groups.by_ref().zip(rates.by_ref()) {
+        deform_group::<R, D>(f, rates, dt);
+    }
+    let (f, rates) = (groups.into_remainder(), rates.into_remainder());
+    if !rates.is_empty() {
+        // filled up to a group with points that are at rest; what the others get depends on none of them
+        let mut four = filled_up::<D>(f);
+        let mut padded = [Rate([[0.0; 4]; D]); GROUP];
+        padded[..rates.len()].copy_from_slice(rates);
+        deform_group::<R, D>(&mut four[..GROUP * D * D], &mut padded, dt);
+        f.copy_from_slice(&four[..f.len()]);
+        rates.copy_from_slice(&padded[..rates.len()]);
     }
 }
 
 #[inline(always)]
-fn pull_back_all<R: Real, const D: usize>(
-    f: &[Matrix<D>],
-    stress: &[f64],
-    first_piola: &mut [Matrix<D>],
-) {
+fn pull_back_all<R: Real, const D: usize>(f: &[f64], stress: &[f64], first_piola: &mut [f64]) {
     let packed = packed_len(D);
-    let mut numbers = [R::splat(0.0); 12];
-    let groups = f
-        .chunks(GROUP)
-        .zip(stress.chunks(GROUP * packed))
-        .zip(first_piola.chunks_mut(GROUP));
-    for ((f, stress), first_piola) in groups {
-        let mut four = [Matrix::<D>::identity().data.0; GROUP];
+    let all = f.chunks_exact(GROUP * D * D);
+    let stresses = stress.chunks_exact(GROUP * packed);
+    let mut to = first_piola.chunks_exact_mut(GROUP * D * D);
+    let (f_left, stress_left) = (all.remainder(), stresses.remainder());
+    for ((f, stress), to) in all.zip(stresses).zip(to.by_ref()) {
+        pull_back_group::<R, D>(f, stress, to);
+    }
+    let left = to.into_remainder();
+    if !left.is_empty() {
+        let four = filled_up::<D>(f_left);
         let mut stresses = [0.0; GROUP * 6];
-        for k in 0..f.len() {
-            four[k] = f[k].data.0;
-        }
-        stresses[..stress.len()].copy_from_slice(stress);
-        let four = four.as_flattened_mut().as_flattened_mut();
-        R::read_rows(four, &mut numbers[..D * D]);
-        let inverse = from_columns::<R, D>(&numbers, D).inverse();
-        R::read_rows(&stresses[..GROUP * packed], &mut numbers[..packed]);
-        let kirchhoff = Tensor::<R, D>::from_packed(&numbers[..packed]);
-        to_columns(&(kirchhoff * inverse.transpose()), &mut numbers, D);
-        R::write_rows(four, &numbers[..D * D]);
-        for (k, p) in first_piola.iter_mut().enumerate() {
-            p.as_mut_slice()
-                .copy_from_slice(&four[k * D * D..(k + 1) * D * D]);
-        }
+        stresses[..stress_left.len()].copy_from_slice(stress_left);
+        let mut result = [0.0; GROUP * 9];
+        let numbers = GROUP * D * D;
+        pull_back_group::<R, D>(
+            &four[..numbers],
+            &stresses[..GROUP * packed],
+            &mut result[..numbers],
+        );
+        left.copy_from_slice(&result[..left.len()]);
     }
 }
 
-/// The tensor whose column a starts at number `a * stride`.
+/// The deformation gradients of less than a group of points, and those of points that are not deformed after them.
 #[inline(always)]
-fn from_columns<R: Real, const D: usize>(numbers: &[R; 12], stride: usize) -> Tensor<R, D> {
+fn filled_up<const D: usize>(left: &[f64]) -> [f64; GROUP * 9] {
+    let mut four = [0.0; GROUP * 9];
+    for point in 0..GROUP {
+        for a in 0..D {
+            four[point * D * D + a * (D + 1)] = 1.0;
+        }
+    }
+    four[..left.len()].copy_from_slice(left);
+    four
+}
+
+/// One group of points.
+#[inline(always)]
+fn deform_group<R: Real, const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64) {
+    let [r0, r1, r2, r3] = rates else {
+        unreachable!("a group has four points")
+    };
+    let mut numbers = [R::splat(0.0); 9];
+    R::read_rows(f, &mut numbers[..D * D]);
+    let start = from_columns::<R, D>(&numbers);
+    let mut rate = Tensor::zero();
+    for a in 0..D {
+        let columns = [&r0.0[a], &r1.0[a], &r2.0[a], &r3.0[a]];
+        R::read_padded(columns, &mut numbers[..D]);
+        for i in 0..D {
+            rate[(i, a)] = numbers[i];
+        }
+    }
+    let spatial = rate * start.inverse();
+    to_columns(&spatial, &mut numbers);
+    for a in 0..D {
+        let columns = [&mut r0.0[a], &mut r1.0[a], &mut r2.0[a], &mut r3.0[a]];
+        R::write_padded(columns, &numbers[D * a..D * (a + 1)]);
+    }
+    let end = rate.scaled_plus(R::splat(dt), start);
+    to_columns(&end, &mut numbers);
+    R::write_rows(f, &numbers[..D * D]);
+}
+
+/// One group of points.
+#[inline(always)]
+fn pull_back_group<R: Real, const D: usize>(f: &[f64], stress: &[f64], first_piola: &mut [f64]) {
+    let packed = packed_len(D);
+    let mut numbers = [R::splat(0.0); 9];
+    R::read_rows(f, &mut numbers[..D * D]);
+    let inverse = from_columns::<R, D>(&numbers).inverse();
+    R::read_rows(stress, &mut numbers[..packed]);
+    let kirchhoff = Tensor::<R, D>::from_packed(&numbers[..packed]);
+    to_columns(&(kirchhoff * inverse.transpose()), &mut numbers);
+    R::write_rows(first_piola, &numbers[..D * D]);
+}
+
+/// The tensor whose columns follow one another.
+#[inline(always)]
+fn from_columns<R: Real, const D: usize>(numbers: &[R; 9]) -> Tensor<R, D> {
     let mut tensor = Tensor::zero();
     for a in 0..D {
         for i in 0..D {
-            tensor[(i, a)] = numbers[a * stride + i];
+            tensor[(i, a)] = numbers[a * D + i];
         }
     }
     tensor
@@ -133,14 +161,10 @@ fn from_columns<R: Real, const D: usize>(numbers: &[R; 12], stride: usize) -> Te
 
 /// Writes what [`from_columns`] reads.
 #[inline(always)]
-fn to_columns<R: Real, const D: usize>(
-    tensor: &Tensor<R, D>,
-    numbers: &mut [R; 12],
-    stride: usize,
-) {
+fn to_columns<R: Real, const D: usize>(tensor: &Tensor<R, D>, numbers: &mut [R; 9]) {
     for a in 0..D {
         for i in 0..D {
-            numbers[a * stride + i] = tensor[(i, a)];
+            numbers[a * D + i] = tensor[(i, a)];
         }
     }
 }
@@ -152,16 +176,12 @@ mod wide {
     use crate::real::Avx;
 
     #[target_feature(enable = "avx2,fma")]
-    pub fn deform<const D: usize>(f: &mut [Matrix<D>], rates: &mut [Rate<D>], dt: f64) {
+    pub fn deform<const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64) {
         deform_all::<Avx, D>(f, rates, dt);
     }
 
     #[target_feature(enable = "avx2,fma")]
-    pub fn pull_back<const D: usize>(
-        f: &[Matrix<D>],
-        stress: &[f64],
-        first_piola: &mut [Matrix<D>],
-    ) {
+    pub fn pull_back<const D: usize>(f: &[f64], stress: &[f64], first_piola: &mut [f64]) {
         pull_back_all::<Avx, D>(f, stress, first_piola);
     }
 }
@@ -190,7 +210,7 @@ pub(super) fn max_stiffness<const D: usize>(body: &Body<D>, range: Range<usize>)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::unpack;
+    use crate::math::{Matrix, unpack};
 
     /// Any numbers between −½ and ½.
     fn number(k: usize) -> f64 {
@@ -199,6 +219,11 @@ mod tests {
 
     fn matrix<const D: usize>(k: usize) -> Matrix<D> {
         Matrix::from_fn(|i, j| number(100 * k + D * i + j))
+    }
+
+    fn numbers<const D: usize>(matrices: &[Matrix<D>]) -> Vec<f64> {
+        let flat = matrices.iter().flat_map(|matrix| matrix.as_slice());
+        flat.copied().collect()
     }
 
     /// Every number of points up to three groups, with all arithmetics.
@@ -211,15 +236,18 @@ mod tests {
                 .collect();
             let given: Vec<Matrix<D>> = (0..count).map(|k| matrix(50 + k)).collect();
             let mut rates: Vec<Rate<D>> = given.iter().map(|&rate| Rate::from(rate)).collect();
-            let mut f = start.clone();
+            let mut f = numbers(&start);
             deform(&mut f, &mut rates, dt, wide);
             let width = packed_len(D);
             let stress: Vec<f64> = (0..width * count).map(number).collect();
-            let mut first_piola = vec![Matrix::zeros(); count];
-            pull_back(&f, &stress, &mut first_piola, wide);
+            let mut first_piola = vec![f64::NAN; f.len()];
+            pull_back::<D>(&f, &stress, &mut first_piola, wide);
+            let matrix_of = |numbers: &[f64], k: usize| {
+                Matrix::<D>::from_column_slice(&numbers[k * D * D..(k + 1) * D * D])
+            };
             for k in 0..count {
                 let end = start[k] + given[k] * dt;
-                assert!((f[k] - end).amax() < 1e-15 * 4.0, "{D}D F");
+                assert!((matrix_of(&f, k) - end).amax() < 1e-15 * 4.0, "{D}D F");
                 let l = given[k] * inverse(&start[k]);
                 for a in 0..D {
                     for i in 0..D {
@@ -229,7 +257,7 @@ mod tests {
                 }
                 let kirchhoff: Matrix<D> = unpack(&stress[k * width..(k + 1) * width]);
                 let p = kirchhoff * inverse(&end).transpose();
-                assert!((first_piola[k] - p).amax() < 1e-14, "{D}D P");
+                assert!((matrix_of(&first_piola, k) - p).amax() < 1e-14, "{D}D P");
                 // what laws make of L is the same F
                 let own = (Matrix::identity() + l * dt) * start[k];
                 assert!((own - end).amax() < 1e-14, "{D}D (I + Δt L) F");

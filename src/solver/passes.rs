@@ -290,7 +290,7 @@ impl<const D: usize> Mpm<D> {
                     if columns.is_total() {
                         let (f, p) = columns.reference_columns(first, count);
                         let (stress, _, _) = columns.law_columns(first, count);
-                        frame::pull_back(f, stress, p, context.wide);
+                        frame::pull_back::<D>(f, stress, p, context.wide);
                     }
                 }
             }

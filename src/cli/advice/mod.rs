@@ -10,7 +10,7 @@ mod time_step;
 mod uniform;
 
 use crate::basis::{Basis, BasisVisitor};
-use crate::scenario::{BoundarySpec, PointSet, Scenario};
+use crate::scenario::{BoundarySpec, PointSet, ReferenceFrame, Scenario};
 use serde::Serialize;
 
 /// One piece of advice.
@@ -67,10 +67,23 @@ fn stencil(scenario: &Scenario) -> i32 {
     scenario.method.basis.visit(Nodes)
 }
 
-/// What a point costs in a step, about, in instructions: 240, 440 and 840 were counted for 3, 9 and 27 nodes a point
-/// (docs/performance.md, "Kernels"), and a straight line goes through them within 12 %.
-fn cost(nodes_an_axis: i32, dimension: usize) -> f64 {
-    160.0 + 26.0 * f64::from(nodes_an_axis).powi(dimension as i32)
+/// Instructions of a point in a step with APIC and `usl`, in 1D, 2D and 3D: those that do not depend on the basis, those of a node
+/// of its stencil, and those of the tensors that the total frame turns. They were counted with 2 and 3 nodes an axis
+/// (docs/performance.md, "What a point costs").
+const INSTRUCTIONS: [[f64; 3]; 3] = [
+    [104.0, 12.0, 15.0],
+    [308.0, 16.0, 43.0],
+    [501.0, 19.5, 131.0],
+];
+
+/// What a point costs in a step, about, in instructions.
+fn cost(nodes_an_axis: i32, dimension: usize, frame: ReferenceFrame) -> f64 {
+    let [point, node, tensors] = INSTRUCTIONS[dimension - 1];
+    let own = point + node * f64::from(nodes_an_axis).powi(dimension as i32);
+    match frame {
+        ReferenceFrame::Updated => own,
+        ReferenceFrame::Total => own + tensors,
+    }
 }
 
 /// `"a", "b" and "c"`.

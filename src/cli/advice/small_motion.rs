@@ -9,6 +9,9 @@ use crate::scenario::ReferenceFrame;
 /// What points may move, in cells.
 const SMALL: f64 = 0.1;
 
+/// How many times cheaper it has to be to be worth a word.
+const WORTH: f64 = 1.2;
+
 pub fn advise(subject: &Subject) -> Vec<Advice> {
     let scenario = subject.scenario;
     let nodes = stencil(scenario);
@@ -20,13 +23,10 @@ pub fn advise(subject: &Subject) -> Vec<Advice> {
             .any(|spec| spec.condition.is_one_sided());
     let locks =
         scenario.plane != Plane::Stress && locking::highest_ratio(scenario).1 >= locking::HIGH;
-    // in 1D the frame costs what two nodes in place of three save
-    if scenario.method.frame == ReferenceFrame::Total
-        || nodes == 2
-        || scenario.dimension == 1
-        || meets
-        || locks
-    {
+    let dimension = scenario.dimension;
+    let factor =
+        cost(nodes, dimension, scenario.method.frame) / cost(2, dimension, ReferenceFrame::Total);
+    if scenario.method.frame == ReferenceFrame::Total || factor < WORTH || meets || locks {
         return Vec::new();
     }
     let Some(way) = way(subject) else {
@@ -36,7 +36,6 @@ pub fn advise(subject: &Subject) -> Vec<Advice> {
     if way > SMALL {
         return Vec::new();
     }
-    let dimension = scenario.dimension;
     let [more, fewer] = [nodes, 2].map(|nodes| nodes.pow(dimension as u32));
     vec![Advice {
         kind: "small_motion",
@@ -46,8 +45,7 @@ pub fn advise(subject: &Subject) -> Vec<Advice> {
             scenario.method.basis.name()
         ),
         change: "method.frame = \"total\", method.basis = \"linear\"".into(),
-        // turning rates and stresses is as dear as one more node
-        factor: Some(cost(nodes, dimension) / (cost(2, dimension) + cost(1, 1) - cost(0, 1))),
+        factor: Some(factor),
     }]
 }
 

@@ -74,7 +74,7 @@ fn a_bar_between_rollers_needs_one_dimension() {
     );
     assert!(found.change.contains("divide the force of \"pull\" by 2"));
     // 8 points of 8 nodes for one of 2
-    let expected = 8.0 * (160.0 + 26.0 * 8.0) / (160.0 + 26.0 * 2.0);
+    let expected = 8.0 * (501.0 + 19.5 * 8.0 + 131.0) / (104.0 + 12.0 * 2.0 + 15.0);
     assert!(
         (found.factor.unwrap_or(0.0) / expected - 1.0).abs() < 1e-12,
         "{found:?}"
@@ -273,14 +273,14 @@ fn a_motion_of_a_small_part_of_a_cell_needs_no_moving_functions() {
     let bare = "boundary=[]";
     // something may come to a wall later
     assert_eq!(of("small_motion", BLOCK, &[short]), None);
-    let moving = "method.basis=\"quadratic\"";
+    let moving = "method.basis=\"cubic\"";
     let found = of("small_motion", BLOCK, &[short, bare, moving]).expect("advice");
-    // 9 nodes a point, or 4 and the turning of tensors
-    let expected = (160.0 + 26.0 * 9.0) / (160.0 + 26.0 * 4.0 + 26.0);
+    // 16 nodes a point, or 4 and the turning of tensors; 9 nodes are hardly dearer than that
+    let expected = (308.0 + 16.0 * 16.0) / (308.0 + 16.0 * 4.0 + 43.0);
     assert_eq!(found.factor, Some(expected));
     for change in [
         vec!["time.end=0.6"],
-        vec![short, "method.basis=\"linear\""],
+        vec![short, "method.basis=\"quadratic\""],
         vec![short, "method.frame=\"total\""],
         vec![short, "material.soft.neo_hookean.poissons_ratio=0.49"],
         vec![
@@ -307,7 +307,7 @@ fn a_tenth_of_a_cell_is_the_most_that_counts_as_small() {
     ] {
         for (share, small) in [(0.99, true), (1.01, false)] {
             let end = format!("time.end={}", share * longest);
-            let bare = ["boundary=[]", "method.basis=\"quadratic\"", &end];
+            let bare = ["boundary=[]", "method.basis=\"cubic\"", &end];
             let changes = [scene, &bare[..]].concat();
             let found = of("small_motion", BLOCK, &changes);
             assert_eq!(found.is_some(), small, "{changes:?}: {found:?}");

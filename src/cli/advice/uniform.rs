@@ -176,7 +176,8 @@ fn factor(subject: &Subject, left_out: &[usize]) -> f64 {
     }
     let nodes = stencil(scenario);
     let (dimension, lower) = (scenario.dimension, scenario.dimension - left_out.len());
-    all / kept * cost(nodes, dimension) / cost(nodes, lower)
+    let frame = scenario.method.frame;
+    all / kept * cost(nodes, dimension, frame) / cost(nodes, lower, frame)
 }
 
 fn change(scenario: &Scenario, left_out: &[usize]) -> String {

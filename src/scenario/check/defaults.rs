@@ -3,7 +3,8 @@
 //! Where nothing can touch, the total Lagrangian frame needs the least work for its accuracy and has no cell crossing; it does not
 //! see contact. Of its bases `gimp` bears points close to a node, where `linear` blows up; but where no point reaches beyond its
 //! cell the mean of a hat over the width of a point is the hat at its middle, and `linear` gives the same for fewer nodes. Both lock
-//! near ν = ½, where splines do not. In the updated frame points cross cells, which takes quadratic splines.
+//! near ν = ½, where splines do not, and their strains are of first order: a scene that is damped is on its way to a state of rest,
+//! whose stresses splines give much more cheaply. In the updated frame points cross cells, which takes quadratic splines.
 
 use super::numerics::GivenMethod;
 use crate::basis::{BasisChoice, Gimp, Linear, QuadraticBSpline};
@@ -33,6 +34,8 @@ pub(super) struct Surroundings<'a> {
     pub materials: Vec<&'a MaterialSpec>,
     pub grid: &'a GridSpec,
     pub plane: Plane,
+    /// Rate of damping, 1/s.
+    pub damping: f64,
 }
 
 /// The method of a scene: what the file says, and for the rest what suits the scene.
@@ -63,6 +66,10 @@ pub(super) fn method(given: &GivenMethod, scene: &Surroundings<'_>) -> Method {
         ReferenceFrame::Total if stiff => {
             (quadratic(), "hat functions lock near Poisson's ratio 0.5")
         }
+        ReferenceFrame::Total if scene.damping > 0.0 => (
+            quadratic(),
+            "damping leads to a state of rest, whose stresses hat functions give to first order only",
+        ),
         ReferenceFrame::Total if inside_cells() => (
             BasisChoice::Linear(Linear::default()),
             "points cross no cells, and none reaches beyond its own",

@@ -53,6 +53,7 @@ pub(super) fn default_method(scenario: &Scenario) -> Option<Method> {
         materials: scenario.materials.iter().collect(),
         grid: &scenario.grid,
         plane: scenario.plane,
+        damping: scenario.damping,
     };
     Some(defaults::method(&numerics::nothing_given()?, &scene))
 }
@@ -83,6 +84,7 @@ pub(super) fn scenario(
     let bodies = bodies::bodies(&mut root, document, frame, grid.as_ref(), &materials);
     let basis = given.as_ref().map(defaults::basis_before_all);
     let boundaries = boundaries::boundaries(&mut root, frame, grid.as_ref(), basis);
+    let damping = loads::damping(&mut root);
     let method = match (&given, &grid) {
         (Some(given), Some(grid)) => {
             let found = bodies.iter().map(|named| named.found.as_ref());
@@ -92,6 +94,7 @@ pub(super) fn scenario(
                 materials: materials.iter().filter_map(|m| m.found.as_ref()).collect(),
                 grid,
                 plane: frame.plane,
+                damping: damping.unwrap_or_default(),
             };
             Some(defaults::method(given, &scene))
         }
@@ -112,7 +115,6 @@ pub(super) fn scenario(
         boundaries.as_deref(),
     );
     let gravity = loads::gravity(&mut root, frame);
-    let damping = loads::damping(&mut root);
     let loads = loads::loads(&mut root, frame, grid.as_ref(), &bodies);
     let output = records::output(&mut root, time.map(|time| time.0));
     let probes = records::probes(&mut root, frame, grid.as_ref(), &bodies, warnings);

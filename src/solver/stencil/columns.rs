@@ -239,21 +239,20 @@ impl<const D: usize> Columns<D> {
         }
     }
 
-    /// Deformation gradients and first Piola–Kirchhoff stresses of the given rows.
+    /// Deformation gradients and first Piola–Kirchhoff stresses of the given rows, D² numbers each, column by column.
     ///
     /// # Safety
     /// No other thread uses these rows meanwhile; the frame is total.
     #[allow(clippy::mut_from_ref)] // the caller promises
-    pub unsafe fn reference_columns(
-        &self,
-        first: usize,
-        count: usize,
-    ) -> (&mut [Matrix<D>], &mut [Matrix<D>]) {
-        // SAFETY: the rows exist, and the caller keeps everybody else away
+    pub unsafe fn reference_columns(&self, first: usize, count: usize) -> (&mut [f64], &mut [f64]) {
+        let numbers = count * D * D;
+        // SAFETY: the rows exist, a matrix is D² numbers without gaps, and the caller keeps everybody else away
         unsafe {
+            let f = self.deformation.add(first).cast();
+            let p = self.first_piola.add(first).cast();
             (
-                std::slice::from_raw_parts_mut(self.deformation.add(first), count),
-                std::slice::from_raw_parts_mut(self.first_piola.add(first), count),
+                std::slice::from_raw_parts_mut(f, numbers),
+                std::slice::from_raw_parts_mut(p, numbers),
             )
         }
     }

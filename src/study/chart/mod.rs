@@ -14,7 +14,7 @@ mod sweep;
 mod trial;
 
 pub use axes::{AXES, Axis, Place, Setting, Sweep, Value, Values};
-pub use cost::{passes, stencil_nodes, tensor_passes, term_passes, work};
+pub use cost::{passes, stencil_nodes, tensor_visits, term_passes, work};
 pub use frontier::{frontier, median, order};
 pub use orders::{Series, best_updates, local_order, series};
 pub use picture::{label, picture};
