@@ -78,21 +78,6 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// What laws see of point `p`.
-    pub fn present_of(&self, p: usize) -> Present<'_> {
-        let width = packed_len(D);
-        let hoops = if self.hoop_stretch.is_empty() {
-            0..0
-        } else {
-            p..p + 1
-        };
-        Present {
-            stress: &self.stress[p * width..(p + 1) * width],
-            hoop_stress: &self.hoop_stress[hoops.clone()],
-            hoop_stretches: &self.hoop_stretch[hoops],
-        }
-    }
-
     /// Memory of one point's columns, bytes.
     pub fn bytes_per_point(&self) -> usize {
         if self.is_empty() {

@@ -43,10 +43,11 @@ impl Hyperelastic for Inflatable {
 
     /// δτ = μ (L b + b Lᵀ) + λ (2J² − J) tr L I with L = m ⊗ n, less τ Lᵀ, gives
     /// Q = μ (n·b n) I + (μ + λ J²) n ⊗ n. Free transverse directions make it softer, so the bound holds for them too.
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, _: Plane) -> f64 {
+    #[inline(always)]
+    fn stiffness<R: Real, const D: usize>(&self, deformation: &Deformation<R, D>, _: Plane) -> R {
         let (lambda, mu) = self.elasticity.lame();
-        let ratio = 1.0 + deformation.volume_change();
-        let largest = 1.0 + deformation.finger_less_one().largest_eigenvalue();
-        mu * largest + mu + lambda * ratio * ratio
+        let ratio = deformation.volume_change() + 1.0;
+        let largest = deformation.finger_less_one().largest_eigenvalue() + 1.0;
+        largest * mu + ratio * ratio * lambda + mu
     }
 }

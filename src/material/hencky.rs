@@ -70,26 +70,30 @@ impl Hyperelastic for Hencky {
     /// Taking (λ + μ) n ⊗ n out, whose largest eigenvalue is λ + μ, leaves m·Q m ≤ Σ_i m_i² (r n_i² + s (1 − n_i²)) ≤
     /// max(r, s), where r is Gershgorin's bound of the matrix with the diagonal μ − τ_i and the rest s_ik b_k − τ_k − μ, and
     /// s is the largest s_ik b_k. Free transverse directions replace λ by λ*, since τ is linear in ln V.
-    #[inline]
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, plane: Plane) -> f64 {
+    #[inline(always)]
+    fn stiffness<R: Real, const D: usize>(&self, deformation: &Deformation<R, D>, plane: Plane) -> R {
         let (lambda, mu) = self.elasticity.lame();
         let (strains, _, _, volume) = logarithmic_strain(deformation);
-        let stress = |i: usize| 2.0 * mu * strains[i] + lambda * volume;
-        let mut bound = f64::NEG_INFINITY;
+        let mut stress = strains;
         for i in 0..D {
-            let mut row = mu - stress(i);
+            stress[i] = strains[i] * (2.0 * mu) + volume * lambda;
+        }
+        let mut bound = R::splat(f64::NEG_INFINITY);
+        for i in 0..D {
+            let mut row = -stress[i] + mu;
             for k in 0..D {
                 if k != i {
                     // with ln b_i − ln b_k = x: s_ik b_k = μ x / (eˣ − 1)
-                    let x = 2.0 * (strains[i] - strains[k]);
-                    let turning = if x == 0.0 { mu } else { mu * x / x.exp_m1() };
+                    let x = (strains[i] - strains[k]) * 2.0;
+                    let alike = x.abs().at_most(R::splat(0.0));
+                    let turning = R::select(alike, R::splat(mu), x * mu / x.exp_m1());
                     bound = bound.max(turning);
-                    row += (turning - stress(k) - mu).abs();
+                    row = row + (turning - stress[k] - mu).abs();
                 }
             }
             bound = bound.max(row);
         }
-        self.elasticity.plane_lambda::<D>(plane) + mu + bound
+        bound + (self.elasticity.plane_lambda::<D>(plane) + mu)
     }
 
     #[cfg(test)]

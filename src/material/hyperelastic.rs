@@ -21,9 +21,13 @@ pub trait Hyperelastic: Parameters + Clone + Debug + PartialEq + Send + Sync + '
     /// W, J/m³.
     fn energy<const D: usize>(&self, deformation: &Deformation<f64, D>) -> f64;
 
-    /// An upper estimate of ρ₀ c², Pa, see [`Material::stiffness`]. With [`Plane::Stress`] the directions that are not
-    /// modelled give way, otherwise they are held.
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, plane: Plane) -> f64;
+    /// An upper estimate of ρ₀ c², Pa, see [`Material::stiffness`], which is run for four points at once as well. With
+    /// [`Plane::Stress`] the directions that are not modelled give way, otherwise they are held.
+    fn stiffness<R: Real, const D: usize>(
+        &self,
+        deformation: &Deformation<R, D>,
+        plane: Plane,
+    ) -> R;
 
     /// One law for each kind of behaviour that the parameters can select, for the tests that every law has to pass.
     #[cfg(test)]
@@ -57,17 +61,18 @@ fn advance<R: Real, const D: usize>(h: &Tensor<R, D>, step: &Kinematics<R, D>) -
 }
 
 /// The stiffness of a law; NaN where the point is turned inside out, which a function of b or of E does not see.
-#[inline]
-fn stiffness<L: Hyperelastic, const D: usize>(
+#[inline(always)]
+fn stiffness<L: Hyperelastic, R: Real, const D: usize>(
     law: &L,
-    deformation: &Deformation<f64, D>,
+    deformation: &Deformation<R, D>,
     plane: Plane,
-) -> f64 {
-    if deformation.volume_change() > -1.0 {
-        law.stiffness(deformation, plane)
-    } else {
-        f64::NAN
-    }
+) -> R {
+    let possible = deformation.volume_change().greater(R::splat(-1.0));
+    R::select(
+        possible,
+        law.stiffness(deformation, plane),
+        R::splat(f64::NAN),
+    )
 }
 
 /// The components of F by name, row by row.
@@ -130,8 +135,8 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Held<L> {
         1.0 + held(h, hoop_stretch).volume_change()
     }
 
-    #[inline]
-    fn stiffness(&self, h: &Tensor<f64, D>, _: &Stress<f64, D>, hoop_stretch: f64) -> f64 {
+    #[inline(always)]
+    fn stiffness<R: Real>(&self, h: &Tensor<R, D>, _: &Stress<R, D>, hoop_stretch: R) -> R {
         stiffness(&self.law, &held(h, hoop_stretch), Plane::Strain)
     }
 
@@ -178,8 +183,8 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Free<L> {
         1.0 + memory.volume_change()
     }
 
-    #[inline]
-    fn stiffness(&self, memory: &Deformation<f64, D>, _: &Stress<f64, D>, _: f64) -> f64 {
+    #[inline(always)]
+    fn stiffness<R: Real>(&self, memory: &Deformation<R, D>, _: &Stress<R, D>, _: R) -> R {
         stiffness(&self.law, memory, Plane::Stress)
     }
 

@@ -178,23 +178,24 @@ impl<const D: usize> Material<D> for Hypoelastic {
     /// - for the Cauchy rate τ̇ = J σ̇ + τ tr L cancels that but for the share κ per free transverse direction.
     ///
     /// In 1D the spread is that to the transverse stress, so that a bar gets the same step in every dimension.
-    #[inline]
-    fn stiffness(&self, memory: &f64, stress: &Stress<f64, D>, _: f64) -> f64 {
+    #[inline(always)]
+    fn stiffness<R: Real>(&self, memory: &R, stress: &Stress<R, D>, _: R) -> R {
         let modulus = self.plane_lambda + 2.0 * self.mu;
         let (modulus, share) = match self.rate {
             StressRate::Cauchy => (
-                modulus * (1.0 + memory),
+                (*memory + 1.0) * modulus,
                 self.transverse_ratio * (3.0 - D as f64),
             ),
-            StressRate::Kirchhoff => (modulus, 1.0),
+            StressRate::Kirchhoff => (R::splat(modulus), 1.0),
         };
         let spread = match D {
-            1 => ((1.0 - self.held_share) * stress.plane[(0, 0)]).abs(),
+            1 => (stress.plane[(0, 0)] * (1.0 - self.held_share)).abs(),
             _ => stress.plane.eigenvalue_spread(),
         };
         let sign = 1.0_f64.copysign(share); // κ < 0 where ν < 0: then tension counts
-        let pressure = (stress.plane * -sign).largest_eigenvalue().max(0.0);
-        modulus + 0.75 * spread + share.abs() * (pressure + 0.25 * spread)
+        let pressure = (stress.plane * -sign).largest_eigenvalue();
+        let pressure = pressure.max(R::splat(0.0));
+        modulus + spread * 0.75 + (pressure + spread * 0.25) * share.abs()
     }
 
     fn memory_names(&self) -> Vec<String> {

@@ -8,6 +8,7 @@ mod elasticity;
 mod hyperelastic;
 mod numbers;
 mod points;
+mod survey;
 #[cfg(test)]
 mod tests;
 mod update;
@@ -130,12 +131,14 @@ pub trait Material<const D: usize>: Clone + Send + Sync + 'static {
     ///
     /// Q(n) m = (δτ − τ Lᵀ) n, where δτ is the change of stress that the velocity gradient L = m ⊗ n makes in unit time:
     /// P = τ F⁻ᵀ, so that δP Fᵀ = δτ − τ Lᵀ. Zero-order terms of an axisymmetric scene (v_r/r) are no part of it.
-    fn stiffness(
+    ///
+    /// Written as for one point and run for four at once, under the conditions of [`Self::update_stress`].
+    fn stiffness<R: Real>(
         &self,
-        memory: &Self::Memory<f64>,
-        stress: &Stress<f64, D>,
-        hoop_stretch: f64,
-    ) -> f64;
+        memory: &Self::Memory<R>,
+        stress: &Stress<R, D>,
+        hoop_stretch: R,
+    ) -> R;
 
     /// What the numbers that [`Self::memory_values`] gives are called.
     fn memory_names(&self) -> Vec<String>;

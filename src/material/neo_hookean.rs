@@ -50,22 +50,22 @@ impl Hyperelastic for NeoHookean {
     ///
     /// Where the transverse stretches t are free, 2μ t² ε_t + λ (tr L + n ε_t) = 0 reduces the λ that multiplies tr L to
     /// λ · 2μt² / (2μt² + nλ), n being the number of free directions.
-    #[inline]
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, plane: Plane) -> f64 {
+    #[inline(always)]
+    fn stiffness<R: Real, const D: usize>(&self, deformation: &Deformation<R, D>, plane: Plane) -> R {
         let (lambda, mu) = self.elasticity.lame();
-        let mut bulk = lambda;
+        let mut bulk = R::splat(lambda);
         if plane == Plane::Stress {
-            let side = 2.0 * mu * (1.0 + deformation.transverse_finger_less_one());
-            bulk *= side / (side + Deformation::<f64, D>::TRANSVERSE * lambda);
+            let side = (deformation.transverse_finger_less_one() + 1.0) * (2.0 * mu);
+            bulk = bulk * (side / (side + Deformation::<R, D>::TRANSVERSE * lambda));
         }
         let mut largest = deformation.finger_less_one().largest_eigenvalue();
         if D < 3 {
             // waves do not run that way, but 3D counts it too: the same scene gets the same step in every dimension
             largest = largest.max(deformation.transverse_finger_less_one());
         }
-        let along = mu + bulk - lambda * deformation.volume_change().ln_1p();
+        let along = bulk - deformation.volume_change().ln_1p() * lambda + mu;
         // across n the second term is missing
-        mu * (1.0 + largest) + along.max(0.0)
+        (largest + 1.0) * mu + along.max(R::splat(0.0))
     }
 
     #[cfg(test)]

@@ -2,7 +2,7 @@
 //! each block of points.
 
 use super::update::update;
-use super::{Material, Numbers, Stress};
+use super::{Material, Numbers, Stress, survey};
 use crate::math::{Matrix, Sum, packed_len};
 use crate::reorder::permute_in_place;
 use crate::tensor::Tensor;
@@ -103,9 +103,9 @@ pub trait MaterialPoints<const D: usize>: Send + Sync {
     /// J of point `index`; `hoop_stretch` is 1 unless axisymmetric.
     fn volume_ratio(&self, index: usize, hoop_stretch: f64) -> f64;
 
-    /// An upper estimate of the largest ρ₀ c² of the points in `range`, Pa, at least 0; NaN if one of them is.
-    /// See [`Material::stiffness`].
-    fn max_stiffness(&self, range: Range<usize>, present: &Present<'_>) -> f64;
+    /// Writes an upper estimate of ρ₀ c², Pa, of each point in `range`, see [`Material::stiffness`]; NaN where a point is turned
+    /// inside out. `wide` asks for wide instructions, where the processor has them.
+    fn stiffness(&self, range: Range<usize>, present: &Present<'_>, wide: bool, into: &mut [f64]);
 
     /// ρ₀ c² of the undeformed material, Pa.
     fn reference_stiffness(&self) -> f64;
@@ -242,16 +242,10 @@ impl<const D: usize, M: Material<D>> MaterialPoints<D> for Points<D, M> {
             .volume_ratio(&self.memory(index), hoop_stretch)
     }
 
-    fn max_stiffness(&self, range: Range<usize>, present: &Present<'_>) -> f64 {
-        let mut largest = 0.0_f64;
-        for (memory, stress, stretch) in self.present(range, present) {
-            let stiffness = self.material.stiffness(&memory, &stress, stretch);
-            if stiffness.is_nan() {
-                return f64::NAN;
-            }
-            largest = largest.max(stiffness);
-        }
-        largest
+    fn stiffness(&self, range: Range<usize>, present: &Present<'_>, wide: bool, into: &mut [f64]) {
+        let rows = range.start * Self::WIDTH..range.end * Self::WIDTH;
+        let memory = self.memory.range(rows);
+        survey::stiffness(&self.material, memory, present, wide, into);
     }
 
     fn reference_stiffness(&self) -> f64 {

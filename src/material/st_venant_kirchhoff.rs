@@ -55,13 +55,13 @@ impl Hyperelastic for StVenantKirchhoff {
     /// δτ = L τ + τ Lᵀ + λ tr(b D) b + 2μ b D b with L = m ⊗ n gives
     /// Q = (n·τ n) I + (λ + μ) b n ⊗ b n + μ (n·b n) b, at most the largest principal τ plus (λ + 2μ) b².
     /// Free transverse directions replace λ by λ* (see [`Isotropic::plane_lambda`]) since S is linear in E.
-    #[inline]
-    fn stiffness<const D: usize>(&self, deformation: &Deformation<f64, D>, plane: Plane) -> f64 {
+    #[inline(always)]
+    fn stiffness<R: Real, const D: usize>(&self, deformation: &Deformation<R, D>, plane: Plane) -> R {
         let (_, mu) = self.elasticity.lame();
         let modulus = self.elasticity.plane_lambda::<D>(plane) + 2.0 * mu;
-        let largest = 1.0 + deformation.finger_less_one().largest_eigenvalue();
+        let largest = deformation.finger_less_one().largest_eigenvalue() + 1.0;
         let stress = self.stress(deformation).plane;
-        stress.largest_eigenvalue() + modulus * largest * largest
+        stress.largest_eigenvalue() + largest * largest * modulus
     }
 
     #[cfg(test)]

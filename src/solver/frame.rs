@@ -6,11 +6,9 @@
 //! P : Ḟ = τ : Ḟ F⁻¹, so that P = τ F⁻ᵀ, F at the end of the step as τ is, and f_i = −Σ V₀ P ∇₀N_i.
 
 use crate::material::Rate;
-use crate::math::packed_len;
+use crate::math::{Matrix, packed_len};
 use crate::real::{Portable, Real};
-use crate::state::Body;
 use crate::tensor::Tensor;
-use std::ops::Range;
 
 /// Points that are computed together.
 const GROUP: usize = 4;
@@ -186,31 +184,29 @@ mod wide {
     }
 }
 
-/// An upper estimate of the largest ρ₀ c₀² of some of a body's points, Pa, c₀ being the speed of a wave measured in the reference
-/// configuration; NaN if that of a point is.
+/// Turns ρ₀ c² of up to four points, Pa, into an upper estimate of ρ₀ c₀², c₀ being the speed of a wave measured in the reference
+/// configuration; `f` are their deformation gradients.
 ///
 /// A wave with the wave vector K in the reference configuration has k = F⁻ᵀ K in the present one and the same frequency, so that
 /// c₀ = c |k|/|K| ≤ c ‖F⁻¹‖.
-pub(super) fn max_stiffness<const D: usize>(body: &Body<D>, range: Range<usize>) -> f64 {
-    let p = &body.particles;
-    let mut largest = 0.0_f64;
-    for i in range {
-        let f = &p.deformation_gradient[i];
-        let present = body.material.max_stiffness(i..i + 1, &p.present_of(i));
-        let inverse = Tensor::from(*f).inverse();
-        let stiffness = present * (inverse * inverse.transpose()).largest_eigenvalue();
-        if stiffness.is_nan() {
-            return f64::NAN;
-        }
-        largest = largest.max(stiffness);
+pub(super) fn seen_from_reference<const D: usize>(f: &[Matrix<D>], stiffness: &mut [f64]) {
+    let mut four = filled_up::<D>(&[]);
+    for (own, f) in four.chunks_exact_mut(D * D).zip(f) {
+        own.copy_from_slice(f.as_slice());
     }
-    largest
+    let mut numbers = [Portable::splat(0.0); 9];
+    Portable::read_rows(&four[..GROUP * D * D], &mut numbers[..D * D]);
+    let inverse = from_columns::<Portable, D>(&numbers).inverse();
+    let squares = (inverse * inverse.transpose()).largest_eigenvalue();
+    for (k, stiffness) in stiffness.iter_mut().enumerate() {
+        *stiffness *= squares.lane(k);
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Matrix, unpack};
+    use crate::math::unpack;
 
     /// Any numbers between −½ and ½.
     fn number(k: usize) -> f64 {

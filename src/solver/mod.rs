@@ -15,6 +15,7 @@ mod plain;
 mod sharpen;
 mod sort;
 pub mod stencil;
+mod survey;
 mod time_step;
 
 pub use kernels::{Kernels, Stencils};

@@ -1,19 +1,19 @@
 //! The material point method: one step, as the algorithm box of a paper would print it.
 
-use super::frame;
 use super::integrate::{Constraint, GridStep};
 use super::kernels::Kernels;
 use super::ledger::{GridSums, Ledger, Stored};
 use super::loads::{Load, Loads};
 use super::sort::Scratch;
 use super::stencil::{Columns, Gathered, Scattered, Sources, Wanted};
+use super::survey::max_stiffness;
 use super::{Fault, Limit, Solver};
 use crate::boundary::Condition;
 use crate::grid::{Blocks, Geometry, Node, block_edge};
 use crate::math::{Sum, Vector, packed_len};
 use crate::scenario::Scheme;
 use crate::state::{Body, State};
-use crate::totals::{Totals, in_parts, largest_in_parts, present};
+use crate::totals::{Totals, in_parts, largest_in_parts};
 
 /// Everything that a solver is told before a run.
 pub struct Setup<const D: usize> {
@@ -216,13 +216,8 @@ impl<const D: usize> Mpm<D> {
             .map(|body| {
                 let p = &body.particles;
                 // a law that softens keeps the step of its undeformed state: it may stiffen again within a step
-                let stiffness = largest_in_parts(p.len(), |part| {
-                    if p.is_total() {
-                        return frame::max_stiffness(body, part);
-                    }
-                    let present = present(p, part.clone());
-                    body.material.max_stiffness(part, &present)
-                });
+                let stiffness =
+                    largest_in_parts(p.len(), |part| max_stiffness(body, part, self.wide));
                 let reference = body.material.reference_stiffness();
                 let stiffness = if stiffness < reference {
                     reference

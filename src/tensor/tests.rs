@@ -58,6 +58,31 @@ fn in_dimension<const D: usize>() {
     assert!(values.iter().all(|value| value.is_nan()));
 }
 
+/// Eigenvalues 1, t and −1 in every order of size, turned: all values of cos 3φ, its ends with two equal ones among them.
+#[test]
+fn extreme_eigenvalues_are_found_wherever_the_third_one_lies() {
+    let (_, axes) = (sample::<3>(1.0) + sample::<3>(1.0).transpose()).symmetric_eigen();
+    for k in 0..=200 {
+        let t = 0.01 * f64::from(k) - 1.0;
+        let tensor = Tensor::from_eigen(&[t, 1.0, -1.0], &axes).scaled(3e-7);
+        // where two are equal, round-off in the determinant counts as its root
+        let close = if t.abs() > 0.999 {
+            2e-8
+        } else {
+            2e-15 / (1.0 - t.abs())
+        };
+        let largest = tensor.largest_eigenvalue() / 3e-7;
+        assert!((largest - 1.0).abs() < close, "{t}: {largest}");
+        let spread = tensor.eigenvalue_spread() / 3e-7;
+        assert!((spread - 2.0).abs() < 2.0 * close, "{t}: {spread}");
+    }
+    assert_eq!(Tensor::<f64, 3>::zero().largest_eigenvalue(), 0.0);
+    assert_eq!(Tensor::<f64, 3>::identity().largest_eigenvalue(), 1.0);
+    let mut broken = Tensor::<f64, 3>::identity();
+    broken[(0, 1)] = f64::NAN;
+    assert!(broken.largest_eigenvalue().is_nan() && broken.eigenvalue_spread().is_nan());
+}
+
 #[test]
 fn small_tensors_obey_their_definitions_in_every_dimension() {
     in_dimension::<1>();

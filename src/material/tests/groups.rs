@@ -80,13 +80,39 @@ impl<const D: usize> Block<D> {
         }
     }
 
-    /// All numbers that the points have.
-    fn numbers(&self) -> Vec<f64> {
+    /// All numbers that the points have, and at last how stiff they are.
+    fn numbers(&self, how: How) -> Vec<f64> {
         let mut bits = Vec::new();
         self.points.state_bits(&mut bits);
         let memory = bits.into_iter().map(f64::from_bits);
         let stress = self.stress.iter().chain(&self.hoop).copied();
-        stress.chain(memory).collect()
+        stress.chain(memory).chain(self.stiffness(how)).collect()
+    }
+
+    fn stiffness(&self, how: How) -> Vec<f64> {
+        let (each, wide) = match how {
+            How::Singly => (1, false),
+            How::Grouped { wide } => (COUNT, wide),
+            How::Alone { wide } => (1, wide),
+        };
+        let width = packed_len(D);
+        let mut found = vec![0.0; COUNT];
+        for first in (0..COUNT).step_by(each) {
+            let range = first..first + each;
+            let hoops = if self.hoop.is_empty() {
+                0..0
+            } else {
+                range.clone()
+            };
+            let present = Present {
+                stress: &self.stress[first * width..(first + each) * width],
+                hoop_stress: &self.hoop[hoops.clone()],
+                hoop_stretches: &self.stretches[hoops],
+            };
+            let found = &mut found[range.clone()];
+            self.points.stiffness(range, &present, wide, found);
+        }
+        found
     }
 }
 
@@ -110,7 +136,7 @@ fn run<const D: usize>(law: &LawChoice, plane: Plane, how: How, garbage: f64) ->
             }
         }
         block.step(how, &rates, &hoop_rates);
-        history.push(block.numbers());
+        history.push(block.numbers(how));
     }
     history
 }
@@ -150,6 +176,10 @@ fn same_as_single<const D: usize>() {
                 last[4 * packed..5 * packed].iter().all(|x| !x.is_nan()),
                 "{label}"
             );
+            let stiffness = &grouped[11][grouped[11].len() - COUNT..];
+            for (k, stiffness) in stiffness.iter().enumerate() {
+                assert_eq!(stiffness.is_nan(), k == 5, "{label}, point {k}");
+            }
         }
     });
 }

@@ -83,7 +83,7 @@ impl<const D: usize> Point<D> {
         let present = Present {
             stress: &self.stress,
             hoop_stress: &self.hoop,
-            hoop_stretches: std::slice::from_ref(&self.hoop_stretch),
+            hoop_stretches: &std::slice::from_ref(&self.hoop_stretch)[..self.hoop.len()],
         };
         (present, self.hoop_stretch)
     }
@@ -97,7 +97,11 @@ impl<const D: usize> Point<D> {
     }
 
     pub(super) fn stiffness(&self) -> f64 {
-        self.points.max_stiffness(0..1, &self.present().0)
+        let mut found = [0.0];
+        let present = self.present().0;
+        self.points.stiffness(0..1, &present, true, &mut found);
+        // as the time step takes it: a law that has collapsed has no waves
+        if found[0] < 0.0 { 0.0 } else { found[0] }
     }
 
     pub(super) fn volume_ratio(&self) -> f64 {
