@@ -2,7 +2,7 @@
 
 use super::{MOST, Material, Numbers, Present, Stress};
 use crate::math::packed_len;
-use crate::real::{Portable, Real};
+use crate::real::{Portable, Real, filled_up};
 use crate::tensor::Tensor;
 
 /// Points that are computed together.
@@ -44,24 +44,16 @@ pub(super) fn stiffness<const D: usize, M: Material<D>>(
     if left == 0 {
         return;
     }
-    let mut numbers = [0.0; GROUP * MOST];
-    let mut plane = [0.0; GROUP * 6];
-    let (mut hoop, mut stretches) = ([0.0; GROUP], [0.0; GROUP]);
-    for k in 0..GROUP {
-        let from = whole + k.min(left - 1);
-        numbers[k * width..][..width].copy_from_slice(&memory[from * width..][..width]);
-        plane[k * packed..][..packed].copy_from_slice(&present.stress[from * packed..][..packed]);
-        if hoops > 0 {
-            hoop[k] = present.hoop_stress[from];
-            stretches[k] = present.hoop_stretches[from];
-        }
-    }
+    let plane = filled_up::<{ GROUP * 6 }>(&present.stress[whole * packed..], packed);
+    let hoop = filled_up::<GROUP>(&present.hoop_stress[hoop_whole..], 1);
+    let stretches = filled_up::<GROUP>(&present.hoop_stretches[hoop_whole..], 1);
     let group_hoops = GROUP.min(hoops * GROUP);
     let group = Present {
         stress: &plane[..GROUP * packed],
         hoop_stress: &hoop[..group_hoops],
         hoop_stretches: &stretches[..group_hoops],
     };
+    let numbers = filled_up::<{ GROUP * MOST }>(&memory[whole * width..], width);
     let mut four = [0.0; GROUP];
     groups(material, &numbers[..GROUP * width], &group, wide, &mut four);
     into[whole..].copy_from_slice(&four[..left]);

@@ -2,7 +2,7 @@
 
 use super::{Increments, Kinematics, MOST, Material, Numbers, Rate, Stress, StressMut};
 use crate::math::packed_len;
-use crate::real::{Portable, Real};
+use crate::real::{Portable, Real, filled_up};
 use crate::tensor::Tensor;
 
 /// Points that are computed together.
@@ -60,22 +60,12 @@ pub(super) fn update<const D: usize, M: Material<D>>(
     if left == 0 {
         return;
     }
-    let source = |k: usize| k.min(left - 1);
-    let mut memory = [0.0; GROUP * MOST];
-    let mut plane = [0.0; GROUP * 6];
-    let (mut hoop, mut hoop_rates, mut hoop_stretches) = ([0.0; GROUP], [0.0; GROUP], [0.0; GROUP]);
-    let mut rates = [Rate([[0.0; 4]; D]); GROUP];
-    for k in 0..GROUP {
-        let from = source(k);
-        memory[k * width..][..width].copy_from_slice(&memory_left[from * width..][..width]);
-        plane[k * packed..][..packed].copy_from_slice(&plane_left[from * packed..][..packed]);
-        rates[k] = rates_left[from];
-        if hoops > 0 {
-            hoop[k] = hoop_left[from];
-            hoop_rates[k] = hoop_rates_left[from];
-            hoop_stretches[k] = hoop_stretches_left[from];
-        }
-    }
+    let mut memory = filled_up::<{ GROUP * MOST }>(memory_left, width);
+    let mut plane = filled_up::<{ GROUP * 6 }>(plane_left, packed);
+    let mut hoop = filled_up::<GROUP>(hoop_left, 1);
+    let hoop_rates = filled_up::<GROUP>(hoop_rates_left, 1);
+    let hoop_stretches = filled_up::<GROUP>(hoop_stretches_left, 1);
+    let rates: [Rate<D>; GROUP] = std::array::from_fn(|k| rates_left[k.min(left - 1)]);
     let group_hoops = GROUP.min(hoops * GROUP);
     groups(
         material,

@@ -115,6 +115,21 @@ pub trait Real:
     fn exp_m1(self) -> Self;
 }
 
+/// Rows of `width` numbers for [`Real::read_rows`] where there are fewer than four: the last one stands for those that there are
+/// not. Zeros where there is none at all. `N` is at least 4 `width`; what is behind that is zero.
+#[inline(always)]
+pub fn filled_up<const N: usize>(rows: &[f64], width: usize) -> [f64; N] {
+    let mut four = [0.0; N];
+    let count = rows.len() / width.max(1);
+    if count > 0 {
+        for k in 0..4 {
+            let from = k.min(count - 1) * width;
+            four[k * width..(k + 1) * width].copy_from_slice(&rows[from..from + width]);
+        }
+    }
+    four
+}
+
 /// Whether this processor has the instructions that four wide lanes need.
 pub fn wide_instructions() -> bool {
     #[cfg(target_arch = "x86_64")]

@@ -129,6 +129,18 @@ fn rows<R: Real, const WIDTH: usize>() {
     }
 }
 
+#[test]
+fn the_last_row_stands_for_those_that_there_are_not() {
+    let rows = [1.0, 2.0, 3.0, 4.0];
+    assert_eq!(
+        filled_up(&rows, 2),
+        [1.0, 2.0, 3.0, 4.0, 3.0, 4.0, 3.0, 4.0, 0.0]
+    );
+    assert_eq!(filled_up(&rows[..3], 1), [1.0, 2.0, 3.0, 3.0]);
+    assert_eq!(filled_up(&[], 1), [0.0; 4]);
+    assert_eq!(filled_up(&[], 0), [0.0; 4]);
+}
+
 #[inline(always)]
 fn all<R: Real>() {
     functions::<R>();

@@ -7,7 +7,7 @@
 
 use crate::material::Rate;
 use crate::math::{Matrix, packed_len};
-use crate::real::{Portable, Real};
+use crate::real::{Portable, Real, filled_up};
 use crate::tensor::Tensor;
 
 /// Points that are computed together.
@@ -55,10 +55,9 @@ fn deform_all<R: Real, const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt:
     }
     let (f, rates) = (groups.into_remainder(), rates.into_remainder());
     if !rates.is_empty() {
-        // filled up to a group with points that are at rest; what the others get depends on none of them
-        let mut four = filled_up::<D>(f);
-        let mut padded = [Rate([[0.0; 4]; D]); GROUP];
-        padded[..rates.len()].copy_from_slice(rates);
+        // filled up to a group with copies of the last; what the others get depends on none of them
+        let mut four = filled_up::<{ GROUP * 9 }>(f, D * D);
+        let mut padded = std::array::from_fn::<_, GROUP, _>(|k| rates[k.min(rates.len() - 1)]);
         deform_group::<R, D>(&mut four[..GROUP * D * D], &mut padded, dt);
         f.copy_from_slice(&four[..f.len()]);
         rates.copy_from_slice(&padded[..rates.len()]);
@@ -77,9 +76,8 @@ fn pull_back_all<R: Real, const D: usize>(f: &[f64], stress: &[f64], first_piola
     }
     let left = to.into_remainder();
     if !left.is_empty() {
-        let four = filled_up::<D>(f_left);
-        let mut stresses = [0.0; GROUP * 6];
-        stresses[..stress_left.len()].copy_from_slice(stress_left);
+        let four = filled_up::<{ GROUP * 9 }>(f_left, D * D);
+        let stresses = filled_up::<{ GROUP * 6 }>(stress_left, packed);
         let mut result = [0.0; GROUP * 9];
         let numbers = GROUP * D * D;
         pull_back_group::<R, D>(
@@ -89,19 +87,6 @@ fn pull_back_all<R: Real, const D: usize>(f: &[f64], stress: &[f64], first_piola
         );
         left.copy_from_slice(&result[..left.len()]);
     }
-}
-
-/// The deformation gradients of less than a group of points, and those of points that are not deformed after them.
-#[inline(always)]
-fn filled_up<const D: usize>(left: &[f64]) -> [f64; GROUP * 9] {
-    let mut four = [0.0; GROUP * 9];
-    for point in 0..GROUP {
-        for a in 0..D {
-            four[point * D * D + a * (D + 1)] = 1.0;
-        }
-    }
-    four[..left.len()].copy_from_slice(left);
-    four
 }
 
 /// One group of points.
@@ -184,22 +169,24 @@ mod wide {
     }
 }
 
-/// Turns ρ₀ c² of up to four points, Pa, into an upper estimate of ρ₀ c₀², c₀ being the speed of a wave measured in the reference
+/// Turns ρ₀ c² of some points, Pa, into an upper estimate of ρ₀ c₀², c₀ being the speed of a wave measured in the reference
 /// configuration; `f` are their deformation gradients.
 ///
 /// A wave with the wave vector K in the reference configuration has k = F⁻ᵀ K in the present one and the same frequency, so that
 /// c₀ = c |k|/|K| ≤ c ‖F⁻¹‖.
 pub(super) fn seen_from_reference<const D: usize>(f: &[Matrix<D>], stiffness: &mut [f64]) {
-    let mut four = filled_up::<D>(&[]);
-    for (own, f) in four.chunks_exact_mut(D * D).zip(f) {
-        own.copy_from_slice(f.as_slice());
-    }
-    let mut numbers = [Portable::splat(0.0); 9];
-    Portable::read_rows(&four[..GROUP * D * D], &mut numbers[..D * D]);
-    let inverse = from_columns::<Portable, D>(&numbers).inverse();
-    let squares = (inverse * inverse.transpose()).largest_eigenvalue();
-    for (k, stiffness) in stiffness.iter_mut().enumerate() {
-        *stiffness *= squares.lane(k);
+    for (f, stiffness) in f.chunks(GROUP).zip(stiffness.chunks_mut(GROUP)) {
+        let mut numbers = [Portable::splat(0.0); 9];
+        for (k, f) in f.iter().enumerate() {
+            for (number, x) in numbers.iter_mut().zip(f.as_slice()) {
+                *number = number.with_lane(k, *x);
+            }
+        }
+        let inverse = from_columns::<Portable, D>(&numbers).inverse();
+        let squares = (inverse * inverse.transpose()).largest_eigenvalue();
+        for (k, stiffness) in stiffness.iter_mut().enumerate() {
+            *stiffness *= squares.lane(k);
+        }
     }
 }
 

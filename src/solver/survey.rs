@@ -24,10 +24,7 @@ pub(super) fn max_stiffness<const D: usize>(
         let present = present(p, rows.clone());
         body.material.stiffness(rows.clone(), &present, wide, found);
         if p.is_total() {
-            let deformed = p.deformation_gradient[rows].chunks(4);
-            for (f, found) in deformed.zip(found.chunks_mut(4)) {
-                frame::seen_from_reference(f, found);
-            }
+            frame::seen_from_reference(&p.deformation_gradient[rows], found);
         }
         for stiffness in found {
             if stiffness.is_nan() {

@@ -280,6 +280,7 @@ fn a_motion_of_a_small_part_of_a_cell_needs_no_moving_functions() {
     assert_eq!(found.factor, Some(expected));
     for change in [
         vec!["time.end=0.6"],
+        vec![short, "method.basis=\"linear\""],
         vec![short, "method.basis=\"quadratic\""],
         vec![short, "method.frame=\"total\""],
         vec![short, "material.soft.neo_hookean.poissons_ratio=0.49"],

@@ -3,6 +3,7 @@
 use super::*;
 use crate::math::packed_len;
 use crate::real::Portable;
+use std::ops::Range;
 
 /// A number of points that is no multiple of four.
 const COUNT: usize = 11;
@@ -41,6 +42,17 @@ impl<const D: usize> Block<D> {
         }
     }
 
+    /// The rows of each call with so many points, and which of them have hoops.
+    fn parts(&self, each: usize) -> Vec<(Range<usize>, Range<usize>)> {
+        let firsts = (0..COUNT).step_by(each);
+        let ranges = firsts.map(|first| first..first + each);
+        let hoops = |range: &Range<usize>| match self.hoop.is_empty() {
+            true => 0..0,
+            false => range.clone(),
+        };
+        ranges.map(|range| (range.clone(), hoops(&range))).collect()
+    }
+
     fn step(&mut self, how: How, rates: &[Rate<D>], hoop_rates: &[f64]) {
         let dt = 0.25;
         let hoop_rates = &hoop_rates[..self.hoop.len()];
@@ -51,13 +63,7 @@ impl<const D: usize> Block<D> {
             How::Alone { .. } => 1,
             _ => COUNT,
         };
-        for first in (0..COUNT).step_by(each) {
-            let range = first..first + each;
-            let hoops = if self.hoop.is_empty() {
-                0..0
-            } else {
-                range.clone()
-            };
+        for (range, hoops) in self.parts(each) {
             let increments = Increments {
                 rates: &rates[range.clone()],
                 hoop_rates: &hoop_rates[hoops.clone()],
@@ -67,7 +73,7 @@ impl<const D: usize> Block<D> {
             };
             let width = packed_len(D);
             let stress = StressMut {
-                plane: &mut self.stress[first * width..(first + each) * width],
+                plane: &mut self.stress[range.start * width..range.end * width],
                 hoop: &mut self.hoop[hoops],
             };
             // SAFETY: nobody else knows these points.
@@ -97,15 +103,9 @@ impl<const D: usize> Block<D> {
         };
         let width = packed_len(D);
         let mut found = vec![0.0; COUNT];
-        for first in (0..COUNT).step_by(each) {
-            let range = first..first + each;
-            let hoops = if self.hoop.is_empty() {
-                0..0
-            } else {
-                range.clone()
-            };
+        for (range, hoops) in self.parts(each) {
             let present = Present {
-                stress: &self.stress[first * width..(first + each) * width],
+                stress: &self.stress[range.start * width..range.end * width],
                 hoop_stress: &self.hoop[hoops.clone()],
                 hoop_stretches: &self.stretches[hoops],
             };
