@@ -225,6 +225,15 @@ mod tests {
             let stress: Vec<f64> = (0..width * count).map(number).collect();
             let mut first_piola = vec![f64::NAN; f.len()];
             pull_back::<D>(&f, &stress, &mut first_piola, wide);
+            let mut stiffness: Vec<f64> = (0..count).map(|k| 1.0 + k as f64).collect();
+            seen_from_reference(&start, &mut stiffness);
+            for k in 0..count {
+                let inverse = Tensor::from(inverse(&start[k]));
+                let (squares, _) = (inverse * inverse.transpose()).symmetric_eigen();
+                let largest = squares.into_iter().fold(0.0, f64::max);
+                let expected = (1.0 + k as f64) * largest;
+                assert!((stiffness[k] / expected - 1.0).abs() < 1e-13, "{D}D c₀");
+            }
             let matrix_of = |numbers: &[f64], k: usize| {
                 Matrix::<D>::from_column_slice(&numbers[k * D * D..(k + 1) * D * D])
             };
