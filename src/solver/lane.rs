@@ -49,6 +49,8 @@ pub trait Lane: Real {
     unsafe fn store_points<const D: usize>(points: &[Self; D], to: *mut f64);
     /// Lane a has number a of each of the four.
     fn turn<const D: usize>(points: &[Self; 4]) -> [Self; D];
+    /// Number a is the sum of the four numbers of lane a.
+    fn sums(lanes: [Self; 4]) -> Self;
     /// Reads `count` numbers, one to four; the others are zero.
     ///
     /// # Safety
@@ -143,6 +145,10 @@ impl Lane for Portable {
     #[inline(always)]
     fn turn<const D: usize>(points: &[Self; 4]) -> [Self; D] {
         std::array::from_fn(|a| Self(std::array::from_fn(|q| points[q].0[a])))
+    }
+    #[inline(always)]
+    fn sums(lanes: [Self; 4]) -> Self {
+        Self(lanes.map(|Self(x)| (x[0] + x[1]) + (x[2] + x[3])))
     }
     #[inline(always)]
     unsafe fn load_some(from: *const f64, count: usize) -> Self {

@@ -1,5 +1,6 @@
-//! Keeps the points of each body ordered by the block of the grid that they are in.
+//! Keeps the points of each body ordered by the block of the grid that they are in, and within it by cell.
 
+use super::disjoint::Disjoint;
 use super::integrate::Constraint;
 use super::kernels::Kernels;
 use super::mpm::Mpm;
@@ -57,6 +58,9 @@ impl<const D: usize> Piece<D> {
     }
 }
 
+/// Cells that a block has at most: 8³.
+const MOST_CELLS: usize = 512;
+
 /// Points from which on sorting them is shared among threads.
 const PIECE: usize = 1 << 13;
 
@@ -89,13 +93,25 @@ impl<const D: usize> Mpm<D> {
         result
     }
 
-    fn block_of(&self, body: usize, position: &Vector<D>) -> [i32; D] {
+    /// The first node of the stencil of a point.
+    fn first(&self, body: usize, position: &Vector<D>) -> [i32; D] {
         let x = self
             .geometry
             .in_cells(position, 1.0 / self.geometry.cell_size);
-        self.kernels
-            .first(body, &x, &self.geometry.cells)
+        self.kernels.first(body, &x, &self.geometry.cells)
+    }
+
+    fn block_of(&self, body: usize, position: &Vector<D>) -> [i32; D] {
+        self.first(body, position)
             .map(|first| first.div_euclid(self.edge))
+    }
+
+    /// The number of the cell of a point among those of its block.
+    fn cell(&self, body: usize, position: &Vector<D>) -> usize {
+        let first = self.first(body, position);
+        first.iter().fold(0, |number, first| {
+            number * self.edge as usize + first.rem_euclid(self.edge) as usize
+        })
     }
 
     /// Sorts one body, or names the row of a point that has no place in the grid.
@@ -160,7 +176,11 @@ impl<const D: usize> Mpm<D> {
             pieces.iter_mut().zip(slots.chunks_mut(size)).for_each(aim);
         }
         // room for all, or a later sort that moves more points would ask for memory
-        order.reserve_exact(count.saturating_sub(order.len()));
+        order.clear();
+        order.reserve_exact(count);
+        if D > 1 {
+            self.order_cells(index, &body.particles, blocks, slots, order);
+        }
         reorder::cycles(slots, order, leaders);
         if !order.is_empty() {
             let (particles, material) = (&mut body.particles, &mut body.material);
@@ -175,6 +195,52 @@ impl<const D: usize> Mpm<D> {
             }
         }
         Ok(())
+    }
+
+    /// Orders the points of each block by their cells, those of a cell as they were. `slots` has the rows that points go to,
+    /// `order` is for working.
+    fn order_cells(
+        &self,
+        index: usize,
+        particles: &Particles<D>,
+        blocks: &[Occupied<D>],
+        slots: &mut [u32],
+        order: &mut Vec<u32>,
+    ) {
+        order.resize(slots.len(), 0);
+        for (row, slot) in slots.iter().enumerate() {
+            order[*slot as usize] = row as u32;
+        }
+        let positions = particles.grid_position();
+        let slots = Disjoint::new(slots);
+        let order_one = |&(_, (first, end)): &Occupied<D>| {
+            let rows = &order[first as usize..end as usize];
+            let mut next = [0; MOST_CELLS];
+            for &row in rows {
+                let row = row as usize;
+                let cell = self.cell(index, &positions[row]);
+                next[cell] += 1;
+                // SAFETY: every row is in one block only
+                unsafe { slots.slice(row..row + 1)[0] = cell as u32 };
+            }
+            let mut target = first;
+            for next in &mut next[..(self.edge as usize).pow(D as u32)] {
+                target += std::mem::replace(next, target);
+            }
+            for &row in rows {
+                let row = row as usize;
+                // SAFETY: as above
+                let slot = unsafe { &mut slots.slice(row..row + 1)[0] };
+                let next = &mut next[*slot as usize];
+                *slot = *next;
+                *next += 1;
+            }
+        };
+        if self.parallel && blocks.len() > 1 {
+            blocks.par_iter().for_each(order_one);
+        } else {
+            blocks.iter().for_each(order_one);
+        }
     }
 
     /// Collects the blocks of each piece, or names the first row whose point has no place in the grid.

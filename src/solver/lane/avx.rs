@@ -159,6 +159,19 @@ impl Lane for Avx {
         turned
     }
     #[inline(always)]
+    fn sums(lanes: [Self; 4]) -> Self {
+        // SAFETY: module header
+        unsafe {
+            let [a, b, c, d] = [lanes[0].0, lanes[1].0, lanes[2].0, lanes[3].0];
+            // a₀ + a₁, b₀ + b₁, a₂ + a₃, b₂ + b₃
+            let ab = _mm256_add_pd(_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+            let cd = _mm256_add_pd(_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
+            let low = _mm256_blend_pd::<0b1100>(ab, cd);
+            let high = _mm256_permute2f128_pd::<0x21>(ab, cd);
+            Self(_mm256_add_pd(low, high))
+        }
+    }
+    #[inline(always)]
     unsafe fn load_some(from: *const f64, count: usize) -> Self {
         // SAFETY: module header
         Self(unsafe {

@@ -1,6 +1,7 @@
 //! Domains: their functions node by node, and what they promise.
 
-use super::compare::{EveryPass, Kind, SPACING};
+use super::cloud::Kind;
+use super::compare::{EveryPass, SPACING};
 use super::*;
 use crate::basis::Cpdi;
 use crate::solver::Domains;

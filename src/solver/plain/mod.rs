@@ -6,6 +6,7 @@ use crate::grid::Geometry;
 use crate::math::{Matrix, Vector, packed_len, unpack};
 use crate::state::{Masses, Particles};
 
+mod cloud;
 mod compare;
 mod domains;
 mod tiling;

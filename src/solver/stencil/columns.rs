@@ -188,14 +188,85 @@ impl<const D: usize> Columns<D> {
         unsafe { numbers::<L>(self.affine.cast_const().cast::<f64>().add(first), count) }
     }
 
-    /// Writes affine fields in 1D.
+    /// The columns of four points' affine fields, in 2D and 3D.
+    ///
+    /// # Safety
+    /// As for [`Self::positions`]; all four rows exist.
+    #[inline(always)]
+    pub(super) unsafe fn affines<L: Lane>(&self, first: usize) -> [[L; D]; D] {
+        // SAFETY: the rows exist
+        unsafe { matrices::<L, D>(self.affine.add(first)) }
+    }
+
+    /// The columns of the stresses of four points that forces follow from, in 2D and 3D.
+    ///
+    /// # Safety
+    /// As for [`Self::affines`].
+    #[inline(always)]
+    pub(super) unsafe fn stresses<L: Lane>(&self, first: usize) -> [[L; D]; D] {
+        // SAFETY: the rows exist
+        unsafe {
+            if self.total {
+                return matrices::<L, D>(self.first_piola.add(first));
+            }
+            let width = packed_len(D);
+            let rows = std::slice::from_raw_parts(self.stress.add(first * width), 4 * width);
+            let mut packed = [L::splat(0.0); 6];
+            L::read_rows(rows, &mut packed[..width]);
+            let mut columns = [[packed[0]; D]; D];
+            let mut at = 0;
+            for a in 0..D {
+                for b in a..D {
+                    columns[a][b] = packed[at];
+                    columns[b][a] = packed[at];
+                    at += 1;
+                }
+            }
+            columns
+        }
+    }
+
+    /// Hoop stresses of four points.
+    ///
+    /// # Safety
+    /// As for [`Self::affines`]; the body is axisymmetric.
+    #[inline(always)]
+    pub(super) unsafe fn hoop_stresses<L: Lane>(&self, first: usize) -> L {
+        // SAFETY: the rows exist
+        unsafe { numbers::<L>(self.hoop_stress.add(first), 4) }
+    }
+
+    /// Writes the affine fields of points, in 2D and 3D of four, given the columns of their matrices.
     ///
     /// # Safety
     /// As for [`Self::set_positions`].
     #[inline(always)]
-    pub(super) unsafe fn set_line_affines<L: Lane>(&self, first: usize, count: usize, c: L) {
-        // SAFETY: the rows exist, a number each in 1D
-        unsafe { set_points::<L, 1>(self.affine.cast::<Vector<1>>().add(first), count, &[c]) }
+    pub(super) unsafe fn set_affines<L: Lane>(
+        &self,
+        first: usize,
+        count: usize,
+        field: &[[L; D]; D],
+    ) {
+        // SAFETY: the rows exist, D² numbers each without gaps
+        unsafe {
+            if D == 1 {
+                let to = self.affine.cast::<Vector<1>>().add(first);
+                return set_points::<L, 1>(to, count, &[field[0][0]]);
+            }
+            let rows =
+                std::slice::from_raw_parts_mut(self.affine.add(first).cast::<f64>(), 4 * D * D);
+            L::write_rows(rows, field.as_flattened());
+        }
+    }
+
+    /// Writes the affine field of the point in row `p`, given the columns of its matrix.
+    ///
+    /// # Safety
+    /// As for [`Self::set_positions`].
+    #[inline(always)]
+    pub(super) unsafe fn set_affine<L: Lane>(&self, p: usize, field: &[L; D]) {
+        // SAFETY: the row exists
+        unsafe { L::store_matrix::<D>(field, self.affine.add(p).cast()) }
     }
 
     /// Writes positions of `count` points from row `first` on.
@@ -304,6 +375,16 @@ unsafe fn numbers<L: Lane>(from: *const f64, count: usize) -> L {
         }
         L::load_some(from, count)
     }
+}
+
+/// The columns of four matrices.
+#[inline(always)]
+unsafe fn matrices<L: Lane, const D: usize>(from: *const Matrix<D>) -> [[L; D]; D] {
+    let mut columns = [[L::splat(0.0); D]; D];
+    // SAFETY: the caller vouches for four matrices, which are D² numbers each without gaps
+    let rows = unsafe { std::slice::from_raw_parts(from.cast::<f64>(), 4 * D * D) };
+    L::read_rows(rows, columns.as_flattened_mut());
+    columns
 }
 
 /// `count` vectors, four at most; the last stands for those that there are not.

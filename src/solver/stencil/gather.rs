@@ -1,10 +1,10 @@
 //! From the grid to points.
 
 use super::dilation::Centre;
-use super::group::{Four, FourRows, Fours, Group, Needs};
-use super::line::{gather_four, scatter_four};
-use super::nodes::{Stencil, gather_linear, without_absent};
-use super::scatter::{Scattered, scatter_point};
+use super::group::{FourRows, Fours, Group, Needs};
+use super::offered::{Asked, Offered, offered};
+use super::same::Gifts;
+use super::scatter::{Scattered, scatter_rows};
 use super::{Columns, Pass, Rates, Reach, Tile, Wanted};
 use crate::basis::Basis;
 use crate::grid::{Block, Node};
@@ -97,17 +97,14 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
         }
         // SAFETY: the tile holds every node of the stencils, and the rows belong to this block alone (module header)
         let offered = unsafe {
-            offered::<L, D, N, B, T>(
-                pass,
+            let gradients = Some((&mut *rates, at));
+            let asked = Asked {
                 columns,
-                &group,
-                &centre,
-                tile,
-                four,
+                rows: four,
                 what,
                 sources,
-                Some((rates, at)),
-            )
+            };
+            offered::<L, D, N, B, T>(pass, &asked, &group, &centre, tile, gradients)
         };
         if what.rate && D == 2 && columns.axisymmetric {
             let rate = offered.radial / position[0];
@@ -157,6 +154,7 @@ pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: 
     let tile = Tile::new(block, edge, N);
     let mut group = Group::<D, N>::new();
     let centre = Centre::new(pass);
+    let mut gifts = Gifts::none();
     let needs = Needs {
         slope: T::TAYLOR,
         affine: T::AFFINE,
@@ -168,35 +166,18 @@ pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: 
         unsafe {
             let place = columns.places::<L>(first, count);
             group.set::<L, B, T>(pass, &tile, &place, needs);
-            let velocities = Wanted::VELOCITY;
-            let offered = offered::<L, D, N, B, T>(
-                pass, columns, &group, &centre, &tile, four, velocities, sources, None,
-            );
+            let asked = Asked {
+                columns,
+                rows: four,
+                what: Wanted::VELOCITY,
+                sources,
+            };
+            let offered = offered::<L, D, N, B, T>(pass, &asked, &group, &centre, &tile, None);
             sums.take(pass, columns, four, &offered);
-            if D == 1 {
-                let momenta = Scattered::MOMENTUM;
-                scatter_four::<L, D, N, B, T>(
-                    pass, columns, &group, &tile, four, momenta, second, second,
-                );
-                continue;
-            }
-            for q in 0..count {
-                let s = Stencil {
-                    group: &group,
-                    tile: &tile,
-                    q,
-                };
-                scatter_point::<L, D, N, B, T>(
-                    pass,
-                    columns,
-                    &s,
-                    &centre,
-                    first + q,
-                    Scattered::MOMENTUM,
-                    second,
-                    second,
-                );
-            }
+            let what = Scattered::MOMENTUM;
+            scatter_rows::<L, D, N, B, T>(
+                pass, columns, &group, &centre, &tile, four, what, second, second, &mut gifts,
+            );
         }
     }
     sums.total()
@@ -209,196 +190,6 @@ fn all_finite<L: Lane, const D: usize>(position: &[L; D]) -> bool {
         finite &= position[a].all_within(-f64::MAX, f64::MAX);
     }
     finite
-}
-
-/// Velocities that the grid offers to four points, m/s.
-struct Offered<L, const D: usize> {
-    /// At the end of the step.
-    new: [L; D],
-    /// Their change over the step.
-    change: [L; D],
-    /// Along r, of those that strain the points.
-    radial: L,
-}
-
-/// What the grid offers to four points; affine fields are stored, gradients booked from a place of `gradients` on.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    pass: &Pass<D, B, T>,
-    columns: &Columns<D>,
-    group: &Group<D, N>,
-    centre: &Centre<D, N>,
-    tile: &Tile<D>,
-    rows: FourRows,
-    what: Wanted,
-    sources: &Sources,
-    mut gradients: Option<(&mut Rates<D>, usize)>,
-) -> Offered<L, D> {
-    let blend = pass.transfer.ratio() < 1.0;
-    let zero = L::splat(0.0);
-    let (mut new, mut change, mut straining) = ([zero; 4], [zero; 4], [zero; 4]);
-    // whose gathered velocities are the columns of L, and of C
-    let slope = if T::MOVING_LEAST_SQUARES {
-        &group.affine
-    } else {
-        &group.slope
-    };
-    let own = if T::TAYLOR {
-        &group.slope
-    } else {
-        &group.affine
-    };
-    let alike = T::MOVING_LEAST_SQUARES || T::TAYLOR;
-    // in 1D all four are gathered at once
-    let turns = if D == 1 { 1 } else { rows.count };
-    for q in 0..turns {
-        let s = Stencil { group, tile, q };
-        // SAFETY: as the caller says
-        unsafe {
-            if what.rate && what.same {
-                if what.velocity && T::AFFINE && !alike {
-                    let (value, [gradient, columns_of_c]) =
-                        gathered::<L, D, N, B, 2>(sources.main, &s, [slope, own]);
-                    book::<L, D, N>(
-                        &mut gradients,
-                        columns,
-                        centre,
-                        tile,
-                        rows.first,
-                        q,
-                        sources.main,
-                        gradient,
-                    );
-                    set_affine(columns, rows, q, &columns_of_c);
-                    new[q] = value;
-                } else {
-                    let (value, [gradient]) = gathered::<L, D, N, B, 1>(sources.main, &s, [slope]);
-                    book::<L, D, N>(
-                        &mut gradients,
-                        columns,
-                        centre,
-                        tile,
-                        rows.first,
-                        q,
-                        sources.main,
-                        gradient,
-                    );
-                    if what.velocity && T::AFFINE {
-                        set_affine(columns, rows, q, &gradient);
-                    }
-                    new[q] = value;
-                }
-                straining[q] = new[q];
-            } else {
-                if what.rate {
-                    let (value, [gradient]) =
-                        gathered::<L, D, N, B, 1>(sources.second, &s, [slope]);
-                    book::<L, D, N>(
-                        &mut gradients,
-                        columns,
-                        centre,
-                        tile,
-                        rows.first,
-                        q,
-                        sources.second,
-                        gradient,
-                    );
-                    straining[q] = value;
-                }
-                if what.velocity && T::AFFINE {
-                    let (value, [columns_of_c]) =
-                        gathered::<L, D, N, B, 1>(sources.main, &s, [own]);
-                    set_affine(columns, rows, q, &columns_of_c);
-                    new[q] = value;
-                } else if (what.position && T::CHANGE) || (what.velocity && (blend || !T::CHANGE)) {
-                    new[q] = gathered::<L, D, N, B, 0>(sources.main, &s, []).0;
-                }
-            }
-            if what.velocity && T::CHANGE {
-                change[q] = gathered::<L, D, N, B, 0>(sources.change, &s, []).0;
-            }
-        }
-    }
-    if D == 1 {
-        return Offered {
-            new: [new[0]; D],
-            change: [change[0]; D],
-            radial: zero,
-        };
-    }
-    let [radial] = L::turn::<1>(&straining);
-    Offered {
-        new: L::turn::<D>(&new),
-        change: L::turn::<D>(&change),
-        radial,
-    }
-}
-
-/// [`gather_linear`] for point `s.q`, or [`gather_four`]; gradients without what nodes without mass would add to them.
-#[inline(always)]
-unsafe fn gathered<L: Lane, const D: usize, const N: usize, B: Basis<N>, const M: usize>(
-    nodes: *const Node,
-    s: &Stencil<'_, D, N>,
-    g: [&[[Four; N]; D]; M],
-) -> (L, [[L; D]; M]) {
-    // SAFETY: as the caller says
-    unsafe {
-        if D == 1 {
-            return gather_four::<L, D, N, M>(nodes, s.group, s.tile, g, B::SLOPES_JUMP);
-        }
-        let (value, mut gradients) = gather_linear::<L, D, N, M>(nodes, s, g);
-        if B::SLOPES_JUMP {
-            for m in 0..M {
-                without_absent(value, &mut gradients[m]);
-            }
-        }
-        (value, gradients)
-    }
-}
-
-/// Gives point `q`, in 1D all four, its affine field.
-#[inline(always)]
-unsafe fn set_affine<L: Lane, const D: usize>(
-    columns: &Columns<D>,
-    rows: FourRows,
-    q: usize,
-    field: &[L; D],
-) {
-    // SAFETY: the caller vouches for these rows
-    unsafe {
-        if D == 1 {
-            columns.set_line_affines(rows.first, rows.count, field[0]);
-        } else {
-            L::store_matrix::<D>(field, columns.affine.add(rows.first + q).cast());
-        }
-    }
-}
-
-/// Books the gradient of the `q`th of the points from row `first` on, with the change of volume that its basis wants.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-unsafe fn book<L: Lane, const D: usize, const N: usize>(
-    gradients: &mut Option<(&mut Rates<D>, usize)>,
-    columns: &Columns<D>,
-    centre: &Centre<D, N>,
-    tile: &Tile<D>,
-    first: usize,
-    q: usize,
-    velocities: *const Node,
-    mut gradient: [L; D],
-) {
-    if let Some((rates, at)) = gradients {
-        if D == 1 {
-            // all four; a cell has one gradient anyway
-            return rates.set_line(*at, gradient[0]);
-        }
-        if centre.used {
-            // SAFETY: as the caller says
-            unsafe { centre.dilate(columns, tile, first + q, q, velocities, &mut gradient) };
-        }
-        rates.set(*at + q, &gradient);
-    }
 }
 
 /// [`Gathered`] of every fourth point.

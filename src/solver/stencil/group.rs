@@ -42,6 +42,12 @@ impl Four {
         // SAFETY: four numbers, aligned to 32 bytes
         unsafe { lane.store(self.0.as_mut_ptr()) }
     }
+
+    #[inline(always)]
+    pub(super) fn get<L: Lane>(&self) -> L {
+        // SAFETY: as above
+        unsafe { L::load(self.0.as_ptr()) }
+    }
 }
 
 /// The stencils of four points, axis by axis.
@@ -59,6 +65,8 @@ pub(super) struct Group<const D: usize, const N: usize> {
     pub affine: [[Four; N]; D],
     /// Σ N_i (x_i − x)², m².
     pub inertia: [Four; D],
+    /// Whether they all start at the same node, in 2D and 3D.
+    same: bool,
 }
 
 /// Which of a group's functions somebody needs.
@@ -77,7 +85,15 @@ impl<const D: usize, const N: usize> Group<D, N> {
             slope: [[Four::default(); N]; D],
             affine: [[Four::default(); N]; D],
             inertia: [Four::default(); D],
+            same: false,
         }
+    }
+
+    /// Whether this is a whole group of points that can be taken as one: they have the same nodes, and do not need those of the
+    /// middle of their cell as well.
+    #[inline(always)]
+    pub(super) fn is_one(&self, count: usize, middle: bool) -> bool {
+        self.same && count == 4 && !middle
     }
 
     /// The stencils of points at the given places, m.
@@ -114,6 +130,11 @@ impl<const D: usize, const N: usize> Group<D, N> {
             } else {
                 row = row.mul_add(L::splat(tile.width as f64), local);
             }
+        }
+        if D > 1 {
+            let number = row.mul_add(L::splat(tile.width as f64), node);
+            let first = number.lane(0);
+            self.same = number.all_within(first, first);
         }
         self.row = row.whole();
         self.node = node.whole();

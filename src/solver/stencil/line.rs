@@ -2,6 +2,7 @@
 //! taken together, and what they give to their nodes is added in their order.
 
 use super::group::{Four, FourRows, Group};
+use super::same::more;
 use super::scatter::Scattered;
 use super::{Columns, Pass, Tile};
 use crate::grid::Node;
@@ -13,8 +14,7 @@ use crate::transfer::Transfer;
 fn lanes<L: Lane, const N: usize>(numbers: &[Four; N]) -> [L; N] {
     let mut lanes = [L::splat(0.0); N];
     for i in 0..N {
-        // SAFETY: four numbers, aligned to 32 bytes
-        lanes[i] = unsafe { L::load(numbers[i].0.as_ptr()) };
+        lanes[i] = numbers[i].get();
     }
     lanes
 }
@@ -45,7 +45,7 @@ fn after(starts: &[*mut Node; 4], k: usize) -> [*mut f64; 4] {
     nodes
 }
 
-/// What [`gather_linear`](super::nodes::gather_linear) says, for four points: lane q has the number of point q.
+/// What [`gather_same`](super::same::gather_same) says, in 1D.
 ///
 /// # Safety
 /// The tile addresses stored nodes only (module header of `stencil`).
@@ -56,7 +56,7 @@ pub(super) unsafe fn gather_four<L: Lane, const D: usize, const N: usize, const 
     tile: &Tile<D>,
     g: [&[[Four; N]; D]; M],
     absent: bool,
-) -> (L, [[L; D]; M]) {
+) -> ([L; D], [[[L; D]; D]; M]) {
     let zero = L::splat(0.0);
     let starts = starts(nodes.cast_mut(), group, tile);
     let weight: [L; N] = lanes(&group.weight[0]);
@@ -65,7 +65,7 @@ pub(super) unsafe fn gather_four<L: Lane, const D: usize, const N: usize, const 
         function[m] = lanes(&g[m][0]);
     }
     let mut value = zero;
-    let mut gradient = [[zero; D]; M];
+    let mut gradient = [[[zero; D]; D]; M];
     let mut present = [zero; M];
     for k in 0..N {
         // SAFETY: as the caller says
@@ -73,7 +73,7 @@ pub(super) unsafe fn gather_four<L: Lane, const D: usize, const N: usize, const 
             unsafe { L::load_pairs(after(&starts, k).map(|node| node.cast_const())) };
         value = more(k, weight[k], velocity, value);
         for m in 0..M {
-            gradient[m][0] = more(k, function[m][k], velocity, gradient[m][0]);
+            gradient[m][0][0] = more(k, function[m][k], velocity, gradient[m][0][0]);
             if absent {
                 present[m] = more(k, function[m][k], there, present[m]);
             }
@@ -81,16 +81,10 @@ pub(super) unsafe fn gather_four<L: Lane, const D: usize, const N: usize, const 
     }
     if absent {
         for m in 0..M {
-            gradient[m][0] = (-present[m]).mul_add(value, gradient[m][0]);
+            gradient[m][0][0] = (-present[m]).mul_add(value, gradient[m][0][0]);
         }
     }
-    (value, gradient)
-}
-
-/// Adds `a b` to a sum; the first term is the sum.
-#[inline(always)]
-fn more<L: Lane>(k: usize, a: L, b: L, sum: L) -> L {
-    if k == 0 { a * b } else { a.mul_add(b, sum) }
+    ([value; D], gradient)
 }
 
 /// What [`scatter_point`](super::scatter::scatter_point) says, for four points. Points that there are not have no mass and no
@@ -119,7 +113,7 @@ pub(super) unsafe fn scatter_four<L: Lane, const D: usize, const N: usize, B, T:
             mass = columns.masses::<L>(first, count);
             momentum = columns.velocities::<L>(first, count)[0] * mass;
             if T::AFFINE {
-                let inertia = L::load(group.inertia[0].0.as_ptr());
+                let inertia: L = group.inertia[0].get();
                 moment = columns.line_affines::<L>(first, count) * (mass * inertia);
             }
         }
@@ -136,13 +130,7 @@ pub(super) unsafe fn scatter_four<L: Lane, const D: usize, const N: usize, B, T:
     let weight: [L; N] = lanes(&group.weight[0]);
     let mut slant = [zero; N];
     for k in 0..N {
-        // SAFETY: four numbers, aligned to 32 bytes
-        let (affine, slope): (L, L) = unsafe {
-            (
-                L::load(group.affine[0][k].0.as_ptr()),
-                L::load(group.slope[0][k].0.as_ptr()),
-            )
-        };
+        let (affine, slope): (L, L) = (group.affine[0][k].get(), group.slope[0][k].get());
         if T::MOVING_LEAST_SQUARES {
             slant[k] = (moment + pull) * affine;
             continue;

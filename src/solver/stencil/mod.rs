@@ -17,11 +17,12 @@ mod gather;
 mod group;
 mod line;
 mod nodes;
+mod offered;
 mod rates;
+mod same;
 mod scatter;
 mod tile;
 mod wanted;
-
 pub use columns::Columns;
 pub use cpdi::Domains;
 pub use gather::{Gathered, Sources, exchange, gather};

@@ -37,7 +37,7 @@ impl<const D: usize, const N: usize> Stencil<'_, D, N> {
 
     /// The first node of the stencil's row (i, j), for an array that starts at `nodes`.
     #[inline(always)]
-    unsafe fn row(&self, nodes: *mut Node, i: usize, j: usize) -> *mut f64 {
+    pub(super) unsafe fn row(&self, nodes: *mut Node, i: usize, j: usize) -> *mut f64 {
         let number = match D {
             1 => 0,
             2 => self.group.row[self.q] as usize + i,

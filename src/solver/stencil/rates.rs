@@ -45,16 +45,24 @@ impl<const D: usize> Rates<D> {
         unsafe { &mut *(set as *mut [Rate<D>]) }
     }
 
-    /// Sets the gradients of four points on a line.
+    /// Sets the gradients of four points, given their columns.
     #[inline(always)]
-    pub(super) fn set_line<L: Lane>(&mut self, point: usize, gradients: L) {
+    pub(super) fn set_four<L: Lane>(&mut self, point: usize, columns: &[[L; D]; D]) {
         let four = &mut self.gradient[point..point + 4];
         let mut to = [four[0].as_mut_ptr().cast::<f64>(); 4];
         for q in 0..4 {
             to[q] = four[q].as_mut_ptr().cast();
         }
-        // SAFETY: a gradient is four numbers, aligned to 32 bytes; all but the first may be anything
-        unsafe { L::store_pairs([gradients, gradients], to) };
+        for a in 0..D {
+            let column = &columns[a];
+            // SAFETY: column a of a gradient is four numbers, aligned to 32 bytes; all but the first D may be anything
+            unsafe {
+                L::store_pairs([column[0], column[1.min(D - 1)]], after(&to, 4 * a));
+                if D == 3 {
+                    L::store_pairs([column[2], column[2]], after(&to, 4 * a + 2));
+                }
+            }
+        }
     }
 
     /// Sets the columns of one point's gradient.
@@ -72,4 +80,14 @@ impl<const D: usize> Rates<D> {
     pub(super) fn hoops_from(&mut self, point: usize) -> &mut [MaybeUninit<f64>] {
         &mut self.hoop[point..]
     }
+}
+
+/// The addresses `count` numbers on.
+#[inline(always)]
+fn after(to: &[*mut f64; 4], count: usize) -> [*mut f64; 4] {
+    let mut addresses = *to;
+    for q in 0..4 {
+        addresses[q] = to[q].wrapping_add(count);
+    }
+    addresses
 }

@@ -4,6 +4,7 @@ use super::dilation::Centre;
 use super::group::{FourRows, Fours, Group, Needs};
 use super::line::scatter_four;
 use super::nodes::{Gift, Stencil, scatter_gift};
+use super::same::{Gifts, scatter_same};
 use super::{Columns, Pass, Tile};
 use crate::basis::Basis;
 use crate::grid::{Block, Node};
@@ -57,6 +58,7 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
     let tile = Tile::new(block, edge, N);
     let mut group = Group::<D, N>::new();
     let mut centre = Centre::new(pass);
+    let mut gifts = Gifts::none();
     let needs = Needs {
         slope: what.force && !T::MOVING_LEAST_SQUARES,
         affine: T::AFFINE,
@@ -70,31 +72,53 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
         if centre.used {
             centre.set(&group);
         }
-        if D == 1 {
-            // SAFETY: as the caller says, and as above
-            unsafe {
-                scatter_four::<L, D, N, B, T>(pass, columns, &group, &tile, rows, what, main, force)
-            };
-            continue;
+        // SAFETY: as the caller says, and as above
+        unsafe {
+            scatter_rows::<L, D, N, B, T>(
+                pass, columns, &group, &centre, &tile, rows, what, main, force, &mut gifts,
+            );
         }
-        for q in 0..count {
-            let s = Stencil {
-                group: &group,
-                tile: &tile,
-                q,
-            };
-            // SAFETY: as the caller says, and as above
-            unsafe {
-                scatter_point::<L, D, N, B, T>(
-                    pass,
-                    columns,
-                    &s,
-                    &centre,
-                    first + q,
-                    what,
-                    main,
-                    force,
-                )
+    }
+}
+
+/// Adds the points of a group to the grid: as one if they are, else one after the other.
+///
+/// # Safety
+/// As for [`scatter`]; the functions of the points are those in `group`.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+pub(super) unsafe fn scatter_rows<
+    L: Lane,
+    const D: usize,
+    const N: usize,
+    B: Basis<N>,
+    T: Transfer,
+>(
+    pass: &Pass<D, B, T>,
+    columns: &Columns<D>,
+    group: &Group<D, N>,
+    centre: &Centre<D, N>,
+    tile: &Tile<D>,
+    rows: FourRows,
+    what: Scattered,
+    main: *mut Node,
+    force: *mut Node,
+    gifts: &mut Gifts<L, D, N>,
+) {
+    let FourRows { first, count } = rows;
+    // SAFETY: as the caller says
+    unsafe {
+        if D == 1 {
+            scatter_four::<L, D, N, B, T>(pass, columns, group, tile, rows, what, main, force);
+        } else if group.is_one(count, centre.used) {
+            scatter_one::<L, D, N, B, T>(
+                pass, columns, group, tile, first, what, main, force, gifts,
+            );
+        } else {
+            for q in 0..count {
+                let s = Stencil { group, tile, q };
+                let p = first + q;
+                scatter_point::<L, D, N, B, T>(pass, columns, &s, centre, p, what, main, force);
             }
         }
     }
@@ -102,13 +126,7 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
 
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub(super) unsafe fn scatter_point<
-    L: Lane,
-    const D: usize,
-    const N: usize,
-    B: Basis<N>,
-    T: Transfer,
->(
+unsafe fn scatter_point<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     s: &Stencil<'_, D, N>,
@@ -218,6 +236,112 @@ pub(super) unsafe fn scatter_point<
                 scatter_gift::<L, D, N, false, true>(main, main, s, &gift);
             }
             (false, _, false) => scatter_gift::<L, D, N, true, false>(main, main, s, &gift),
+        }
+    }
+}
+
+/// [`scatter_point`] for the four points from row `first` on, which have the same nodes.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+unsafe fn scatter_one<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+    pass: &Pass<D, B, T>,
+    columns: &Columns<D>,
+    group: &Group<D, N>,
+    tile: &Tile<D>,
+    first: usize,
+    what: Scattered,
+    main: *mut Node,
+    force: *mut Node,
+    gifts: &mut Gifts<L, D, N>,
+) {
+    let zero = L::splat(0.0);
+    let mut moment = [[zero; D]; D];
+    let mut pull = [[zero; D]; D];
+    let mut hoop = zero;
+    gifts.value = [zero; 4];
+    // SAFETY: these rows belong to this block alone (module header of `stencil`)
+    let mass = unsafe { columns.masses::<L>(first, 4) };
+    if what.momentum {
+        // SAFETY: as above
+        let velocity = unsafe { columns.velocities::<L>(first, 4) };
+        for c in 0..D {
+            gifts.value[c] = velocity[c] * mass;
+        }
+        gifts.value[D] = mass;
+        if T::AFFINE {
+            // SAFETY: as above
+            let affine = unsafe { columns.affines::<L>(first) };
+            for a in 0..D {
+                let inertia = mass * group.inertia[a].get::<L>();
+                for c in 0..D {
+                    moment[a][c] = affine[a][c] * inertia;
+                }
+            }
+        }
+    }
+    if what.force {
+        let dt = if T::CHANGE { 1.0 } else { pass.dt };
+        let scale = mass * L::splat(-columns.specific_volume * dt);
+        // SAFETY: as above
+        let stress = unsafe { columns.stresses::<L>(first) };
+        for a in 0..D {
+            for c in 0..D {
+                pull[a][c] = stress[a][c] * scale;
+            }
+        }
+        if D == 2 && columns.axisymmetric {
+            // SAFETY: as above
+            unsafe {
+                let radius = columns.positions::<L>(first, 4)[0];
+                hoop = scale * columns.hoop_stresses::<L>(first) / radius;
+            }
+        }
+    }
+    for a in 0..D {
+        for i in 0..N {
+            let (affine, slope): (L, L) = (group.affine[a][i].get(), group.slope[a][i].get());
+            for c in 0..D {
+                let mut slant = zero;
+                if T::MOVING_LEAST_SQUARES {
+                    slant = (moment[a][c] + pull[a][c]) * affine;
+                } else {
+                    if T::AFFINE && what.momentum {
+                        slant = moment[a][c] * affine;
+                    }
+                    if what.force {
+                        slant = pull[a][c].mul_add(slope, slant);
+                    }
+                }
+                gifts.slant[a][i][c].set(slant);
+            }
+        }
+    }
+    // SAFETY: as the caller says
+    unsafe {
+        match (T::CHANGE, what.momentum, what.force) {
+            (true, true, true) if !columns.axisymmetric => {
+                scatter_same::<L, D, N, true, true>(main, force, group, tile, gifts);
+            }
+            (true, momentum, internal) => {
+                if momentum {
+                    scatter_same::<L, D, N, true, false>(main, main, group, tile, gifts);
+                }
+                if internal {
+                    gifts.value = [zero; 4];
+                    gifts.value[0] = hoop;
+                    scatter_same::<L, D, N, false, true>(force, force, group, tile, gifts);
+                }
+            }
+            (false, _, true) => {
+                gifts.value[0] = gifts.value[0] + hoop;
+                scatter_same::<L, D, N, false, true>(main, main, group, tile, gifts);
+            }
+            (false, _, false) if T::AFFINE => {
+                scatter_same::<L, D, N, false, true>(main, main, group, tile, gifts);
+            }
+            (false, _, false) => {
+                scatter_same::<L, D, N, true, false>(main, main, group, tile, gifts);
+            }
         }
     }
 }
