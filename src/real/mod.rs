@@ -142,6 +142,44 @@ pub fn wide_instructions() -> bool {
     }
 }
 
+/// Which instructions a kernel may use, from the fewest on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Instructions {
+    /// Those that every processor has.
+    Portable,
+    /// Registers of four numbers: AVX2 and FMA.
+    Wide,
+    /// Twice as many of them: AVX-512VL too.
+    WideAndMany,
+}
+
+impl Instructions {
+    /// The most that this processor has.
+    pub fn found() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if wide_instructions() {
+            let many = std::arch::is_x86_feature_detected!("avx512f")
+                && std::arch::is_x86_feature_detected!("avx512vl");
+            return if many { Self::WideAndMany } else { Self::Wide };
+        }
+        Self::Portable
+    }
+
+    /// Whether there are registers of four numbers.
+    pub fn wide(self) -> bool {
+        self > Self::Portable
+    }
+
+    /// What they are called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Portable => "no wide instructions",
+            Self::Wide => "wide instructions (AVX2, FMA)",
+            Self::WideAndMany => "wide instructions (AVX2, FMA, AVX-512VL)",
+        }
+    }
+}
+
 /// What comparing gives: yes or no in every lane.
 pub trait Mask:
     Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>

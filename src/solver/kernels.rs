@@ -9,7 +9,7 @@ use super::stencil::{
 use crate::basis::Basis;
 use crate::grid::{Block, Geometry, Node};
 use crate::math::{Matrix, Vector};
-use crate::real::Portable;
+use crate::real::{Instructions, Portable};
 use crate::transfer::Transfer;
 use std::ops::Range;
 
@@ -24,8 +24,8 @@ pub struct Context<'a, const D: usize> {
     pub edge: i32,
     /// Δt, s.
     pub dt: f64,
-    /// Whether to use wide instructions; only if the processor has them.
-    pub wide: bool,
+    /// Which instructions to use; only what the processor has.
+    pub instructions: Instructions,
 }
 
 /// A basis and a transfer.
@@ -136,22 +136,18 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Stencils<D, N, B,
     }
 }
 
-/// Calls the version of a kernel for wide instructions, or the portable one.
+/// Calls the version of a kernel for the given instructions.
 macro_rules! with_lanes {
-    ($wide:expr, $kernel:ident($($argument:expr),* $(,)?)) => {{
-        #[cfg(target_arch = "x86_64")]
-        if $wide {
-            // SAFETY: the instructions were found (`wide_instructions`); the rest as the caller says
-            unsafe { wide::$kernel::<D, N, B, T>($($argument),*) }
-        } else {
-            // SAFETY: as the caller says
-            unsafe { $kernel::<Portable, D, N, B, T>($($argument),*) }
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            let _ = $wide;
-            // SAFETY: as the caller says
-            unsafe { $kernel::<Portable, D, N, B, T>($($argument),*) }
+    ($instructions:expr, $kernel:ident($($argument:expr),* $(,)?)) => {{
+        // SAFETY: wide instructions were found (`Instructions`); the rest as the caller says
+        unsafe {
+            match $instructions {
+                #[cfg(target_arch = "x86_64")]
+                Instructions::WideAndMany => wide_and_many::$kernel::<D, N, B, T>($($argument),*),
+                #[cfg(target_arch = "x86_64")]
+                Instructions::Wide => wide::$kernel::<D, N, B, T>($($argument),*),
+                _ => $kernel::<Portable, D, N, B, T>($($argument),*),
+            }
         }
     }};
 }
@@ -211,7 +207,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
         let pass = self.pass(context);
         let [main, force] = targets;
         with_lanes!(
-            context.wide,
+            context.instructions,
             scatter(&pass, columns, block, context.edge, what, main, force)
         );
     }
@@ -250,7 +246,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
     ) -> Gathered {
         let pass = self.pass(context);
         with_lanes!(
-            context.wide,
+            context.instructions,
             exchange(&pass, columns, block, context.edge, sources, second)
         )
     }
@@ -268,7 +264,7 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
     ) -> Gathered {
         let pass = self.pass(context);
         with_lanes!(
-            context.wide,
+            context.instructions,
             gather(&pass, columns, tile, reach, rows, what, sources, rates)
         )
     }
@@ -276,52 +272,67 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
 
 /// The kernels of `stencil`, compiled for wide instructions.
 #[cfg(target_arch = "x86_64")]
-mod wide {
-    use super::*;
-    use crate::real::Avx;
+macro_rules! compiled_for {
+    ($module:ident, $features:literal) => {
+        mod $module {
+            use super::*;
+            use crate::real::Avx;
 
-    #[target_feature(enable = "avx2,fma")]
-    pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<D, B, T>,
-        columns: &Columns<D>,
-        block: &Block<D>,
-        edge: i32,
-        what: Scattered,
-        main: *mut Node,
-        force: *mut Node,
-    ) {
-        // SAFETY: passed on to the caller
-        unsafe { super::scatter::<Avx, D, N, B, T>(pass, columns, block, edge, what, main, force) }
-    }
+            #[target_feature(enable = $features)]
+            pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+                pass: &Pass<D, B, T>,
+                columns: &Columns<D>,
+                block: &Block<D>,
+                edge: i32,
+                what: Scattered,
+                main: *mut Node,
+                force: *mut Node,
+            ) {
+                // SAFETY: passed on to the caller
+                unsafe {
+                    super::scatter::<Avx, D, N, B, T>(pass, columns, block, edge, what, main, force)
+                }
+            }
 
-    #[target_feature(enable = "avx2,fma")]
-    pub unsafe fn exchange<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<D, B, T>,
-        columns: &Columns<D>,
-        block: &Block<D>,
-        edge: i32,
-        sources: &Sources,
-        second: *mut Node,
-    ) -> Gathered {
-        // SAFETY: passed on to the caller
-        unsafe { super::exchange::<Avx, D, N, B, T>(pass, columns, block, edge, sources, second) }
-    }
+            #[target_feature(enable = $features)]
+            pub unsafe fn exchange<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+                pass: &Pass<D, B, T>,
+                columns: &Columns<D>,
+                block: &Block<D>,
+                edge: i32,
+                sources: &Sources,
+                second: *mut Node,
+            ) -> Gathered {
+                // SAFETY: passed on to the caller
+                unsafe {
+                    super::exchange::<Avx, D, N, B, T>(pass, columns, block, edge, sources, second)
+                }
+            }
 
-    #[target_feature(enable = "avx2,fma")]
-    #[allow(clippy::too_many_arguments)]
-    pub unsafe fn gather<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-        pass: &Pass<D, B, T>,
-        columns: &Columns<D>,
-        tile: &Tile<D>,
-        reach: &Reach<D>,
-        rows: Range<usize>,
-        what: Wanted,
-        sources: &Sources,
-        rates: &mut Rates<D>,
-    ) -> Gathered {
-        // SAFETY: passed on to the caller
-        unsafe {
-            super::gather::<Avx, D, N, B, T>(pass, columns, tile, reach, rows, what, sources, rates)
+            #[target_feature(enable = $features)]
+            #[allow(clippy::too_many_arguments)]
+            pub unsafe fn gather<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+                pass: &Pass<D, B, T>,
+                columns: &Columns<D>,
+                tile: &Tile<D>,
+                reach: &Reach<D>,
+                rows: Range<usize>,
+                what: Wanted,
+                sources: &Sources,
+                rates: &mut Rates<D>,
+            ) -> Gathered {
+                // SAFETY: passed on to the caller
+                unsafe {
+                    super::gather::<Avx, D, N, B, T>(
+                        pass, columns, tile, reach, rows, what, sources, rates,
+                    )
+                }
+            }
         }
-    }
+    };
 }
+
+#[cfg(target_arch = "x86_64")]
+compiled_for!(wide, "avx2,fma");
+#[cfg(target_arch = "x86_64")]
+compiled_for!(wide_and_many, "avx2,fma,avx512f,avx512vl");

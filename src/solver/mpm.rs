@@ -11,6 +11,7 @@ use super::{Fault, Limit, Solver};
 use crate::boundary::Condition;
 use crate::grid::{Blocks, Geometry, Node, block_edge};
 use crate::math::{Sum, Vector, packed_len};
+use crate::real::Instructions;
 use crate::scenario::Scheme;
 use crate::state::{Body, State};
 use crate::totals::{Totals, in_parts, largest_in_parts};
@@ -70,7 +71,7 @@ pub struct Mpm<const D: usize> {
     pub(super) ledger: Ledger<D>,
     pub(super) needs_sort: bool,
     pub(super) parallel: bool,
-    pub(super) wide: bool,
+    pub(super) instructions: Instructions,
     pub(super) last_dt: f64,
     pub(super) wave_speed: f64,
     pub(super) speed: f64,
@@ -122,7 +123,7 @@ impl<const D: usize> Mpm<D> {
             ledger: Ledger::default(),
             needs_sort: true,
             parallel: setup.parallel,
-            wide: crate::real::wide_instructions(),
+            instructions: Instructions::found(),
             last_dt: 0.0,
             wave_speed: 0.0,
             speed: 0.0,
@@ -141,7 +142,7 @@ impl<const D: usize> Mpm<D> {
 
     /// Uses plain arithmetic even where the processor offers more.
     pub fn portable(mut self) -> Self {
-        self.wide = false;
+        self.instructions = Instructions::Portable;
         self
     }
 
@@ -159,7 +160,7 @@ impl<const D: usize> Mpm<D> {
             ratio: self.kernels.ratio(),
             time: state.time,
             dt,
-            wide: self.wide,
+            wide: self.instructions.wide(),
         };
         step.integrate(&mut self.row_sums, self.parallel);
         self.row_sums
@@ -193,7 +194,7 @@ impl<const D: usize> Mpm<D> {
             time,
             &mut self.row_sums,
             self.parallel,
-            self.wide,
+            self.instructions.wide(),
         );
     }
 
@@ -216,8 +217,9 @@ impl<const D: usize> Mpm<D> {
             .map(|body| {
                 let p = &body.particles;
                 // a law that softens keeps the step of its undeformed state: it may stiffen again within a step
-                let stiffness =
-                    largest_in_parts(p.len(), |part| max_stiffness(body, part, self.wide));
+                let stiffness = largest_in_parts(p.len(), |part| {
+                    max_stiffness(body, part, self.instructions.wide())
+                });
                 let reference = body.material.reference_stiffness();
                 let stiffness = if stiffness < reference {
                     reference

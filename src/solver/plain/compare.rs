@@ -4,7 +4,7 @@ use super::cloud::{Kind, Random, points};
 use super::*;
 use crate::basis::{BasisChoice, BasisVisitor, Linear};
 use crate::grid::{Blocks, Node, block_edge};
-use crate::real::wide_instructions;
+use crate::real::Instructions;
 use crate::solver::kernels::{Context, Kernels, Stencils};
 use crate::solver::stencil::{CHUNK, Columns, Rates, Reach, Sources, Tile};
 use crate::transfer::{Apic, Flip, MlsApic, Pic, Tpic, Transfer, TransferChoice};
@@ -48,7 +48,7 @@ fn agree<'a>(
 pub(super) const SPACING: [f64; 3] = [0.5, 0.31, 1.0];
 
 pub(super) struct EveryPass {
-    pub wide: bool,
+    pub instructions: Instructions,
 }
 
 impl BasisVisitor for EveryPass {
@@ -115,8 +115,8 @@ impl EveryPass {
         method: Method,
         kind: Kind,
     ) {
-        let wide = self.wide;
-        let name = format!("{name} {D}D wide {wide} {kind:?}");
+        let instructions = self.instructions;
+        let name = format!("{name} {D}D {instructions:?} {kind:?}");
         let affine = kernels.affine();
         let mut random = Random(0x9E37_79B9_7F4A_7C15 + D as u64);
         let (mut fast, blocks) = points(geometry, kernels, affine, kind, &mut random);
@@ -126,7 +126,7 @@ impl EveryPass {
             body: 0,
             edge,
             dt: DT,
-            wide: wide && wide_instructions(),
+            instructions,
         };
 
         for (momentum, force) in [(true, true), (true, false), (false, true)] {
@@ -313,12 +313,20 @@ fn every_basis() -> impl Iterator<Item = BasisChoice> {
     BasisChoice::all().into_iter().chain([cured])
 }
 
-#[test]
-fn the_wide_kernels_do_what_the_textbook_says() {
-    every_basis().for_each(|basis| basis.visit(EveryPass { wide: true }));
+/// All of them, as far as this processor has them.
+pub(super) fn every_instructions() -> impl Iterator<Item = Instructions> {
+    let all = [
+        Instructions::Portable,
+        Instructions::Wide,
+        Instructions::WideAndMany,
+    ];
+    let found = Instructions::found();
+    all.into_iter().filter(move |some| *some <= found)
 }
 
 #[test]
-fn the_portable_kernels_do_what_the_textbook_says() {
-    every_basis().for_each(|basis| basis.visit(EveryPass { wide: false }));
+fn the_kernels_do_what_the_textbook_says_whatever_the_instructions() {
+    for instructions in every_instructions() {
+        every_basis().for_each(|basis| basis.visit(EveryPass { instructions }));
+    }
 }

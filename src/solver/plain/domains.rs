@@ -1,7 +1,7 @@
 //! Domains: their functions node by node, and what they promise.
 
 use super::cloud::Kind;
-use super::compare::{EveryPass, SPACING};
+use super::compare::{EveryPass, SPACING, every_instructions};
 use super::*;
 use crate::basis::Cpdi;
 use crate::solver::Domains;
@@ -87,9 +87,9 @@ fn compare<const D: usize, T: Transfer>(cells: [i32; D], transfer: T, method: Me
             transfer,
         };
         let knows = |p: &Particles<D>, i: usize| known_by_domain(&geometry, p, i);
-        for wide in [false, true] {
+        for instructions in every_instructions() {
             let name = std::any::type_name::<T>();
-            EveryPass { wide }.compare(name, &geometry, &kernels, &knows, method, kind);
+            EveryPass { instructions }.compare(name, &geometry, &kernels, &knows, method, kind);
         }
     }
 }

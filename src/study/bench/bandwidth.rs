@@ -13,6 +13,8 @@ pub struct Machine {
     pub threads: usize,
     /// Whether the wide instructions (AVX2 and FMA) of the fast kernels are there.
     pub wide_instructions: bool,
+    /// Which they are.
+    pub instructions: &'static str,
     /// Memory bandwidth for each number of threads that is benched.
     pub bandwidth: Vec<Bandwidth>,
 }
@@ -48,10 +50,12 @@ const PASSES: usize = 6;
 /// If the system refuses threads.
 pub fn machine(threads: &[usize]) -> Result<Machine, rayon::ThreadPoolBuildError> {
     let bandwidth = threads.iter().map(|&threads| bandwidth(threads, COUNT));
+    let instructions = crate::real::Instructions::found();
     Ok(Machine {
         processor: processor(),
         threads: std::thread::available_parallelism().map_or(1, usize::from),
-        wide_instructions: crate::real::wide_instructions(),
+        wide_instructions: instructions.wide(),
+        instructions: instructions.name(),
         bandwidth: bandwidth.collect::<Result<_, _>>()?,
     })
 }

@@ -66,16 +66,14 @@ pub fn table(rows: &[Row]) -> Table {
 
 /// What the machine is, and what the columns mean.
 pub fn legend(machine: &Machine) -> String {
-    let wide = if machine.wide_instructions {
-        "wide instructions (AVX2, FMA)"
-    } else {
-        "no wide instructions"
-    };
     let name = match machine.processor.as_str() {
         "" => "processor",
         name => name,
     };
-    let mut text = format!("{name}, {} threads, {wide}\n", machine.threads);
+    let mut text = format!(
+        "{name}, {} threads, {}\n",
+        machine.threads, machine.instructions
+    );
     for b in &machine.bandwidth {
         let plural = if b.threads == 1 { "" } else { "s" };
         text += &format!(

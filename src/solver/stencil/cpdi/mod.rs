@@ -103,7 +103,7 @@ impl<const D: usize, T: Transfer> Kernels<D> for Domains<D, T> {
         let pass = self.pass(context);
         let [main, force] = targets;
         with_lanes!(
-            context.wide,
+            context.instructions.wide(),
             scatter(&pass, columns, block, context.edge, what, main, force)
         )
     }
@@ -142,7 +142,7 @@ impl<const D: usize, T: Transfer> Kernels<D> for Domains<D, T> {
     ) -> Gathered {
         let pass = self.pass(context);
         with_lanes!(
-            context.wide,
+            context.instructions.wide(),
             exchange(&pass, columns, block, context.edge, sources, second)
         )
     }
@@ -160,7 +160,7 @@ impl<const D: usize, T: Transfer> Kernels<D> for Domains<D, T> {
     ) -> Gathered {
         let pass = self.pass(context);
         with_lanes!(
-            context.wide,
+            context.instructions.wide(),
             gather(&pass, columns, tile, reach, rows, what, sources, rates)
         )
     }
