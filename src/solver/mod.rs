@@ -3,6 +3,7 @@
 mod disjoint;
 mod frame;
 mod free;
+mod grouping;
 mod integrate;
 mod kernels;
 pub mod lane;

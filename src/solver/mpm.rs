@@ -1,5 +1,6 @@
 //! The material point method: one step, as the algorithm box of a paper would print it.
 
+use super::grouping::{Grouping, sort_in_steps};
 use super::integrate::{Constraint, GridStep};
 use super::kernels::Kernels;
 use super::ledger::{GridSums, Ledger, Stored};
@@ -69,6 +70,7 @@ pub struct Mpm<const D: usize> {
     pub(super) columns: Vec<Columns<D>>,
     pub(super) scratch: Scratch<D>,
     pub(super) ledger: Ledger<D>,
+    pub(super) grouping: Grouping,
     pub(super) needs_sort: bool,
     pub(super) parallel: bool,
     pub(super) instructions: Instructions,
@@ -121,6 +123,7 @@ impl<const D: usize> Mpm<D> {
             columns: Vec::new(),
             scratch: Scratch::default(),
             ledger: Ledger::default(),
+            grouping: Grouping::default(),
             needs_sort: true,
             parallel: setup.parallel,
             instructions: Instructions::found(),
@@ -144,6 +147,13 @@ impl<const D: usize> Mpm<D> {
     pub fn portable(mut self) -> Self {
         self.instructions = Instructions::Portable;
         self
+    }
+
+    /// Whether so many groups of points have fallen apart that sorting them pays.
+    fn is_worn(&mut self, apart: usize) -> bool {
+        let points = self.blocks.bodies.iter().map(|body| body.points()).sum();
+        self.grouping.note(apart, points);
+        self.grouping.is_worn(sort_in_steps(D))
     }
 
     fn grid_step(&mut self, state: &State<D>, dt: f64) -> GridSums {
@@ -302,7 +312,7 @@ impl<const D: usize> Solver<D> for Mpm<D> {
         };
         self.ledger.book(&sums, gathered.kinetic);
         self.speed = gathered.speed_squared.sqrt();
-        self.needs_sort = !gathered.within;
+        self.needs_sort = !gathered.within || self.is_worn(gathered.apart);
         self.last_dt = dt;
         state.time += dt;
         state.step += 1;

@@ -1,6 +1,7 @@
 //! Keeps the points of each body ordered by the block of the grid that they are in, and within it by cell.
 
 use super::disjoint::Disjoint;
+use super::grouping::Grouping;
 use super::integrate::Constraint;
 use super::kernels::Kernels;
 use super::mpm::Mpm;
@@ -88,6 +89,7 @@ impl<const D: usize> Mpm<D> {
                 .rebuild(self.edge, &self.geometry.counts, &scratch.occupied);
             self.lay_out();
             self.needs_sort = false;
+            self.grouping = Grouping::default();
         }
         self.scratch = scratch;
         result

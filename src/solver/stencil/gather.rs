@@ -18,6 +18,8 @@ pub struct Gathered {
     pub kinetic: f64,
     /// Largest v² of a point, m²/s².
     pub speed_squared: f64,
+    /// Points of groups that could not be taken as one, where points move in 2D and 3D.
+    pub apart: usize,
     /// Whether all points are finite, and, unless they stay where they are in the grid, inside it and within the reach of their
     /// block.
     pub within: bool,
@@ -28,6 +30,7 @@ impl Gathered {
     pub const NONE: Self = Self {
         kinetic: 0.0,
         speed_squared: 0.0,
+        apart: 0,
         within: true,
     };
 
@@ -36,6 +39,7 @@ impl Gathered {
         Self {
             kinetic: self.kinetic + other.kinetic,
             speed_squared: self.speed_squared.max(other.speed_squared),
+            apart: self.apart + other.apart,
             within: self.within && other.within,
         }
     }
@@ -121,6 +125,9 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
             moving = unsafe { columns.velocities::<L>(first, count) };
         }
         if what.position {
+            if D > 1 && !group.is_one(count, centre.used) {
+                sums.apart += count;
+            }
             let mut x = position;
             for a in 0..D {
                 position[a] = dt.mul_add(moving[a], position[a]);
@@ -197,6 +204,7 @@ struct GatheredLanes<L> {
     /// Σ m v².
     kinetic: L,
     fastest: L,
+    apart: usize,
     within: bool,
 }
 
@@ -206,6 +214,7 @@ impl<L: Lane> GatheredLanes<L> {
         Self {
             kinetic: L::splat(0.0),
             fastest: L::splat(0.0),
+            apart: 0,
             within: true,
         }
     }
@@ -253,6 +262,7 @@ impl<L: Lane> GatheredLanes<L> {
         Gathered {
             kinetic: 0.5 * ((kinetic[0] + kinetic[1]) + (kinetic[2] + kinetic[3])),
             speed_squared: fastest.iter().fold(0.0, |most, v| f64::max(most, *v)),
+            apart: self.apart,
             within: self.within,
         }
     }
