@@ -109,3 +109,33 @@ fn any_number_of_threads_stores_points_in_the_same_order() {
     check::<2>();
     check::<3>();
 }
+
+/// Whatever order points come in, those of a cell follow each other after a sort.
+fn cells_are_together<const D: usize>() {
+    let computing = Computing {
+        parallel: Some(false),
+        portable: false,
+    };
+    let mut scene = build_with::<D>(&block(D), &computing);
+    shuffle(&mut scene.state);
+    let cell =
+        |x: &mpm::math::Vector<D>| -> [i64; D] { std::array::from_fn(|a| x[a].floor() as i64) };
+    let changes = |state: &State<D>| {
+        let x = &state.bodies[0].particles.position;
+        x.windows(2)
+            .filter(|two| cell(&two[0]) != cell(&two[1]))
+            .count()
+    };
+    let x = &scene.state.bodies[0].particles.position;
+    let cells: std::collections::HashSet<_> = x.iter().map(cell).collect();
+    assert!(changes(&scene.state) > 2 * cells.len(), "{D}D: shuffled");
+    let started = scene.solver.start(&mut scene.state);
+    started.unwrap_or_else(|fault| panic!("{fault}"));
+    assert_eq!(changes(&scene.state), cells.len() - 1, "{D}D");
+}
+
+#[test]
+fn points_of_a_cell_follow_each_other() {
+    cells_are_together::<2>();
+    cells_are_together::<3>();
+}

@@ -25,6 +25,8 @@ pub(super) struct Kind {
     pub total: bool,
     /// Whether points have domains.
     pub domains: bool,
+    /// Whether some nodes have no mass.
+    pub gaps: bool,
 }
 
 impl Kind {
@@ -34,6 +36,7 @@ impl Kind {
             axisymmetric: k & 1 == 1,
             total: k & 2 == 2,
             domains,
+            gaps: false,
         };
         let every = (0..4).map(kind);
         every.filter(|kind| D == 2 || !kind.axisymmetric).collect()
@@ -61,6 +64,7 @@ pub(super) fn points<const D: usize>(
         axisymmetric,
         total,
         domains,
+        ..
     } = kind;
     let edge = block_edge(D, kernels.nodes());
     let h = geometry.cell_size;

@@ -91,7 +91,9 @@ impl EveryPass {
         method: Method,
         cells: [i32; D],
     ) {
-        for kind in Kind::all::<D>(false) {
+        for mut kind in Kind::all::<D>(false) {
+            // only functions whose slopes jump are told of nodes without mass
+            kind.gaps = B::SLOPES_JUMP && !basis.dilation_at_centre();
             let geometry = Geometry::new(kind.corner(), 0.0625, cells, &basis);
             let axes: [B; D] = std::array::from_fn(|a| basis.for_spacing(SPACING[a]));
             let kernels = Stencils::<D, N, B, T> {
@@ -166,9 +168,13 @@ impl EveryPass {
         let arrays = [0; 3].map(|_| -> Vec<Node> {
             (0..blocks.stored)
                 .map(|_| {
-                    Node(std::array::from_fn(
-                        |a| if a < D { random.next() } else { 1.0 },
-                    ))
+                    let mass = if kind.gaps && random.next() > 0.8 {
+                        0.0
+                    } else {
+                        1.0
+                    };
+                    let number = |a| if a < D { mass * random.next() } else { mass };
+                    Node(std::array::from_fn(number))
                 })
                 .collect()
         });

@@ -213,18 +213,17 @@ fn plain_gather<const D: usize>(
         let mean = |grid: &Dense<D>| -> Vector<D> {
             nodes.iter().map(|k| grid.vector(&k.node) * k.weight).sum()
         };
-        let slope = |grid: &Dense<D>| -> Matrix<D> {
-            nodes
-                .iter()
-                .map(|k| grid.vector(&k.node) * k.gradient.transpose())
-                .sum()
+        // nodes without mass count as if they had the velocity of the point
+        let columns = |grid: &Dense<D>, function: &dyn Fn(&Known<D>) -> Vector<D>| -> Matrix<D> {
+            let mean = mean(grid);
+            let from = |k: &Known<D>| {
+                let mass = grid.nodes[grid.number(&k.node)][D];
+                (grid.vector(&k.node) - mean * mass) * function(k).transpose()
+            };
+            nodes.iter().map(from).sum()
         };
-        let fit = |grid: &Dense<D>| -> Matrix<D> {
-            nodes
-                .iter()
-                .map(|k| grid.vector(&k.node) * k.fitted.transpose())
-                .sum()
-        };
+        let slope = |grid: &Dense<D>| columns(grid, &|k| k.gradient);
+        let fit = |grid: &Dense<D>| columns(grid, &|k| k.fitted);
         let straining = if what.same { main } else { second };
         let hoop_rate = mean(straining)[0] / p.position[i][0];
         let mut rate = match method {

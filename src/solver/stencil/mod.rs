@@ -1,6 +1,7 @@
 //! The hot loops: from the points of one block to the grid nodes around them and back.
 //!
-//! Weights factorise axis by axis, so a stencil of N^D nodes costs a few operations a node. All loops are generic over
+//! Weights factorise axis by axis, so a stencil of N^D nodes costs a few operations a node. Points come four at a time, cell by cell:
+//! four that have the same nodes are taken as one (`same`, in 1D `line`), others one after the other (`nodes`). All loops are generic over
 //! [`Lane`](super::lane::Lane), once with wide instructions and once without; `solver::plain` says what they mean.
 //!
 //! Everything `unsafe` here rests on three facts. A point's stencil starts at most one node outside its block (checked by
