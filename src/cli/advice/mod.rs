@@ -71,9 +71,9 @@ fn stencil(scenario: &Scenario) -> i32 {
 /// of its stencil, and those of the tensors that the total frame turns. They were counted with 2 and 3 nodes an axis
 /// (docs/performance.md, "What a point costs").
 const INSTRUCTIONS: [[f64; 3]; 3] = [
-    [104.0, 12.0, 15.0],
-    [308.0, 16.0, 43.0],
-    [501.0, 19.5, 131.0],
+    [100.0, 12.5, 12.0],
+    [245.0, 9.4, 42.0],
+    [467.0, 13.1, 122.0],
 ];
 
 /// What a point costs in a step, about, in instructions.

@@ -74,7 +74,7 @@ fn a_bar_between_rollers_needs_one_dimension() {
     );
     assert!(found.change.contains("divide the force of \"pull\" by 2"));
     // 8 points of 8 nodes for one of 2
-    let expected = 8.0 * (501.0 + 19.5 * 8.0 + 131.0) / (104.0 + 12.0 * 2.0 + 15.0);
+    let expected = 8.0 * (467.0 + 13.1 * 8.0 + 122.0) / (100.0 + 12.5 * 2.0 + 12.0);
     assert!(
         (found.factor.unwrap_or(0.0) / expected - 1.0).abs() < 1e-12,
         "{found:?}"
@@ -276,7 +276,7 @@ fn a_motion_of_a_small_part_of_a_cell_needs_no_moving_functions() {
     let moving = "method.basis=\"cubic\"";
     let found = of("small_motion", BLOCK, &[short, bare, moving]).expect("advice");
     // 16 nodes a point, or 4 and the turning of tensors; 9 nodes are hardly dearer than that
-    let expected = (308.0 + 16.0 * 16.0) / (308.0 + 16.0 * 4.0 + 43.0);
+    let expected = (245.0 + 9.4 * 16.0) / (245.0 + 9.4 * 4.0 + 42.0);
     assert_eq!(found.factor, Some(expected));
     for change in [
         vec!["time.end=0.6"],

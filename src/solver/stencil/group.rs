@@ -66,7 +66,7 @@ pub(super) struct Group<const D: usize, const N: usize> {
     /// Σ N_i (x_i − x)², m².
     pub inertia: [Four; D],
     /// Whether they all start at the same node, in 2D and 3D.
-    same: bool,
+    pub same: bool,
 }
 
 /// Which of a group's functions somebody needs.
@@ -89,11 +89,16 @@ impl<const D: usize, const N: usize> Group<D, N> {
         }
     }
 
-    /// Whether this is a whole group of points that can be taken as one: they have the same nodes, and do not need those of the
-    /// middle of their cell as well.
+    /// Whether these are four points, which do not need the nodes of the middle of their cells as well.
+    #[inline(always)]
+    pub(super) fn is_whole(&self, count: usize, middle: bool) -> bool {
+        count == 4 && !middle
+    }
+
+    /// Whether these are four points that can be taken as one: they have the same nodes.
     #[inline(always)]
     pub(super) fn is_one(&self, count: usize, middle: bool) -> bool {
-        self.same && count == 4 && !middle
+        self.same && self.is_whole(count, middle)
     }
 
     /// The stencils of points at the given places, m.

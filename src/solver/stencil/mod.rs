@@ -11,6 +11,7 @@
 //! stored nodes, and the health check at the end of the step tells. Blocks that are scattered at the same time have the same colour, so they share no
 //! node. Blocks hold disjoint ranges of rows, so no two threads touch the same point.
 
+mod apart;
 mod columns;
 mod cpdi;
 mod dilation;

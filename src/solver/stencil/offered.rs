@@ -1,5 +1,6 @@
-//! What the grid offers to four points: together where they share their nodes, else to one after the other.
+//! What the grid offers to four points: to all at once where that pays, else to one after the other.
 
+use super::apart::gather_apart;
 use super::dilation::Centre;
 use super::group::{Four, FourRows, Group};
 use super::line::gather_four;
@@ -46,7 +47,7 @@ pub(super) unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N
     let blend = pass.transfer.ratio() < 1.0;
     // SAFETY: as the caller says
     unsafe {
-        if D == 1 || group.is_one(asked.rows.count, centre.used) {
+        if D == 1 || group.is_whole(asked.rows.count, centre.used) && (D == 2 || group.same) {
             to_all::<L, D, N, B, T>(blend, asked, group, tile, gradients)
         } else {
             to_each::<L, D, N, B, T>(blend, asked, group, centre, tile, gradients)
@@ -136,7 +137,7 @@ unsafe fn to_all<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transf
     }
 }
 
-/// [`gather_same`] or, in 1D, [`gather_four`].
+/// [`gather_four`] in 1D, [`gather_apart`] in 2D unless the points have the same nodes, else [`gather_same`].
 #[inline(always)]
 #[allow(clippy::type_complexity)] // values, and for each set of functions the columns of a gradient
 unsafe fn gathered_by_all<L: Lane, const D: usize, const N: usize, B: Basis<N>, const M: usize>(
@@ -149,6 +150,8 @@ unsafe fn gathered_by_all<L: Lane, const D: usize, const N: usize, B: Basis<N>, 
     unsafe {
         if D == 1 {
             gather_four::<L, D, N, M>(nodes, group, tile, g, B::SLOPES_JUMP)
+        } else if D == 2 && !group.same {
+            gather_apart::<L, D, N, B, M>(nodes, group, tile, g)
         } else {
             gather_same::<L, D, N, B, M>(nodes, group, tile, g)
         }
