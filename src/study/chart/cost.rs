@@ -41,7 +41,8 @@ pub fn stencil_nodes(scenario: &Scenario) -> u64 {
 
 /// What the total Lagrangian frame adds to a step of a point, in nodes that it meets: it turns rates before the law and stresses
 /// after it. A linear `usl` step, which meets 4, 8 and 16 nodes, has 1.09, 1.10 and 1.19 times the instructions of the updated
-/// frame in 1D, 2D and 3D; where points of a cell are taken four at a time as one, 1.15 and 1.21 in 2D and 3D. What sorting costs the updated frame is not counted.
+/// frame in 1D, 2D and 3D; where points of a cell are taken four at a time as one, 1.15 and 1.21 in 2D and 3D. What sorting costs
+/// the updated frame is not counted.
 pub fn tensor_visits(frame: ReferenceFrame, dimension: usize) -> f64 {
     match frame {
         ReferenceFrame::Updated => 0.0,
