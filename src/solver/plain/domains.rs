@@ -6,6 +6,7 @@ use super::*;
 use crate::basis::Cpdi;
 use crate::solver::Domains;
 use crate::transfer::{Apic, Flip, MlsApic, Pic, Tpic, Transfer};
+use std::cell::Cell;
 
 /// The hat function, in cells.
 fn hat(x: f64) -> f64 {
@@ -89,7 +90,9 @@ fn compare<const D: usize, T: Transfer>(cells: [i32; D], transfer: T, method: Me
         let knows = |p: &Particles<D>, i: usize| known_by_domain(&geometry, p, i);
         for instructions in every_instructions() {
             let name = std::any::type_name::<T>();
-            EveryPass { instructions }.compare(name, &geometry, &kernels, &knows, method, kind);
+            let bits = &Cell::new(0);
+            let pass = EveryPass { instructions, bits };
+            pass.compare(name, &geometry, &kernels, &knows, method, kind);
         }
     }
 }
