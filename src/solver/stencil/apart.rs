@@ -4,7 +4,7 @@
 use super::Tile;
 use super::group::{Four, Group};
 use super::nodes::Stencil;
-use super::same::more;
+use super::same::{free_of_absent, more};
 use crate::basis::Basis;
 use crate::grid::Node;
 use crate::solver::lane::Lane;
@@ -41,15 +41,14 @@ pub(super) unsafe fn gather_apart<
     if B::SLOPES_JUMP && M > 0 {
         // number 2 says whether a node has mass
         // SAFETY: as the caller says
-        let (_, present) = unsafe { two::<L, D, N, M>(nodes, group, tile, g, 2) };
+        let (_, two) = unsafe { two::<L, D, N, M>(nodes, group, tile, g, 2) };
+        let mut present = [[zero; D]; M];
         for m in 0..M {
             for a in 0..D {
-                for c in 0..D {
-                    let missing = -present[m][a][0];
-                    gradients[m][a][c] = missing.mul_add(values[c], gradients[m][a][c]);
-                }
+                present[m][a] = two[m][a][0];
             }
         }
+        free_of_absent(&values, &mut gradients, &present);
     }
     (values, gradients)
 }

@@ -35,224 +35,34 @@ pub(super) struct Asked<'a, const D: usize> {
 /// # Safety
 /// As for [`gather`](super::gather()); the functions of the points are those in `group`.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
 pub(super) unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<D, B, T>,
     asked: &Asked<'_, D>,
     group: &Group<D, N>,
     centre: &Centre<D, N>,
     tile: &Tile<D>,
-    gradients: Option<(&mut Rates<D>, usize)>,
+    mut gradients: Option<(&mut Rates<D>, usize)>,
 ) -> Offered<L, D> {
     let blend = pass.transfer.ratio() < 1.0;
-    // SAFETY: as the caller says
-    unsafe {
-        if D == 1 || group.is_whole(asked.rows.count, centre.used) && (D == 2 || group.same) {
-            to_all::<L, D, N, B, T>(blend, asked, group, tile, gradients)
-        } else {
-            to_each::<L, D, N, B, T>(blend, asked, group, centre, tile, gradients)
-        }
+    let count = asked.rows.count;
+    if D == 1 || group.is_whole(count, centre.used) && (D == 2 || group.same) {
+        let all = All { asked, group, tile };
+        // SAFETY: as the caller says
+        let taken = unsafe { all.take::<L, B, T>(blend, &mut gradients) };
+        return Offered {
+            new: taken.new,
+            change: taken.change,
+            radial: taken.straining[0],
+        };
     }
-}
-
-/// The functions whose gathered velocities are the columns of L, and of C.
-#[inline(always)]
-#[allow(clippy::type_complexity)] // two of the group's sets
-fn functions<T: Transfer, const D: usize, const N: usize>(
-    group: &Group<D, N>,
-) -> (&[[Four; N]; D], &[[Four; N]; D]) {
-    let (slope, affine) = (&group.slope, &group.affine);
-    (
-        if T::MOVING_LEAST_SQUARES {
-            affine
-        } else {
-            slope
-        },
-        if T::TAYLOR { slope } else { affine },
-    )
-}
-
-/// [`offered`] to points that are taken together.
-#[inline(always)]
-unsafe fn to_all<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    blend: bool,
-    asked: &Asked<'_, D>,
-    group: &Group<D, N>,
-    tile: &Tile<D>,
-    mut gradients: Option<(&mut Rates<D>, usize)>,
-) -> Offered<L, D> {
-    let Asked {
-        columns,
-        rows: FourRows { first, count },
-        what,
-        sources,
-    } = *asked;
-    let zero = L::splat(0.0);
-    let (mut new, mut change, mut straining) = ([zero; D], [zero; D], [zero; D]);
-    let (slope, own) = functions::<T, D, N>(group);
-    let alike = T::MOVING_LEAST_SQUARES || T::TAYLOR;
-    // SAFETY: as the caller says
-    unsafe {
-        if what.rate && what.same {
-            if what.velocity && T::AFFINE && !alike {
-                let (value, [gradient, columns_of_c]) =
-                    gathered_by_all::<L, D, N, B, 2>(sources.main, group, tile, [slope, own]);
-                book_all(&mut gradients, &gradient);
-                columns.set_affines(first, count, &columns_of_c);
-                new = value;
-            } else {
-                let (value, [gradient]) =
-                    gathered_by_all::<L, D, N, B, 1>(sources.main, group, tile, [slope]);
-                book_all(&mut gradients, &gradient);
-                if what.velocity && T::AFFINE {
-                    columns.set_affines(first, count, &gradient);
-                }
-                new = value;
-            }
-            straining = new;
-        } else {
-            if what.rate {
-                let (value, [gradient]) =
-                    gathered_by_all::<L, D, N, B, 1>(sources.second, group, tile, [slope]);
-                book_all(&mut gradients, &gradient);
-                straining = value;
-            }
-            if what.velocity && T::AFFINE {
-                let (value, [columns_of_c]) =
-                    gathered_by_all::<L, D, N, B, 1>(sources.main, group, tile, [own]);
-                columns.set_affines(first, count, &columns_of_c);
-                new = value;
-            } else if (what.position && T::CHANGE) || (what.velocity && (blend || !T::CHANGE)) {
-                new = gathered_by_all::<L, D, N, B, 0>(sources.main, group, tile, []).0;
-            }
-        }
-        if what.velocity && T::CHANGE {
-            change = gathered_by_all::<L, D, N, B, 0>(sources.change, group, tile, []).0;
-        }
-    }
-    Offered {
-        new,
-        change,
-        radial: straining[0],
-    }
-}
-
-/// [`gather_four`] in 1D, [`gather_apart`] in 2D unless the points have the same nodes, else [`gather_same`].
-#[inline(always)]
-#[allow(clippy::type_complexity)] // values, and for each set of functions the columns of a gradient
-unsafe fn gathered_by_all<L: Lane, const D: usize, const N: usize, B: Basis<N>, const M: usize>(
-    nodes: *const Node,
-    group: &Group<D, N>,
-    tile: &Tile<D>,
-    g: [&[[Four; N]; D]; M],
-) -> ([L; D], [[[L; D]; D]; M]) {
-    // SAFETY: as the caller says
-    unsafe {
-        if D == 1 {
-            gather_four::<L, D, N, M>(nodes, group, tile, g, B::SLOPES_JUMP)
-        } else if D == 2 && !group.same {
-            gather_apart::<L, D, N, B, M>(nodes, group, tile, g)
-        } else {
-            gather_same::<L, D, N, B, M>(nodes, group, tile, g)
-        }
-    }
-}
-
-/// Books the gradients of four points.
-#[inline(always)]
-fn book_all<L: Lane, const D: usize>(
-    gradients: &mut Option<(&mut Rates<D>, usize)>,
-    columns: &[[L; D]; D],
-) {
-    if let Some((rates, at)) = gradients {
-        rates.set_four(*at, columns);
-    }
-}
-
-/// [`offered`] to one point after the other, in 2D and 3D.
-#[inline(always)]
-unsafe fn to_each<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
-    blend: bool,
-    asked: &Asked<'_, D>,
-    group: &Group<D, N>,
-    centre: &Centre<D, N>,
-    tile: &Tile<D>,
-    mut gradients: Option<(&mut Rates<D>, usize)>,
-) -> Offered<L, D> {
-    let Asked {
-        columns,
-        rows: FourRows { first, count },
-        what,
-        sources,
-    } = *asked;
     let zero = L::splat(0.0);
     let (mut new, mut change, mut straining) = ([zero; 4], [zero; 4], [zero; 4]);
-    let (slope, own) = functions::<T, D, N>(group);
-    let alike = T::MOVING_LEAST_SQUARES || T::TAYLOR;
     for q in 0..count {
         let s = Stencil { group, tile, q };
+        let one = One { asked, s, centre };
         // SAFETY: as the caller says
-        unsafe {
-            if what.rate && what.same {
-                if what.velocity && T::AFFINE && !alike {
-                    let (value, [gradient, columns_of_c]) =
-                        gathered::<L, D, N, B, 2>(sources.main, &s, [slope, own]);
-                    book(
-                        &mut gradients,
-                        columns,
-                        centre,
-                        &s,
-                        first,
-                        sources.main,
-                        gradient,
-                    );
-                    columns.set_affine(first + q, &columns_of_c);
-                    new[q] = value;
-                } else {
-                    let (value, [gradient]) = gathered::<L, D, N, B, 1>(sources.main, &s, [slope]);
-                    book(
-                        &mut gradients,
-                        columns,
-                        centre,
-                        &s,
-                        first,
-                        sources.main,
-                        gradient,
-                    );
-                    if what.velocity && T::AFFINE {
-                        columns.set_affine(first + q, &gradient);
-                    }
-                    new[q] = value;
-                }
-                straining[q] = new[q];
-            } else {
-                if what.rate {
-                    let (value, [gradient]) =
-                        gathered::<L, D, N, B, 1>(sources.second, &s, [slope]);
-                    book(
-                        &mut gradients,
-                        columns,
-                        centre,
-                        &s,
-                        first,
-                        sources.second,
-                        gradient,
-                    );
-                    straining[q] = value;
-                }
-                if what.velocity && T::AFFINE {
-                    let (value, [columns_of_c]) =
-                        gathered::<L, D, N, B, 1>(sources.main, &s, [own]);
-                    columns.set_affine(first + q, &columns_of_c);
-                    new[q] = value;
-                } else if (what.position && T::CHANGE) || (what.velocity && (blend || !T::CHANGE)) {
-                    new[q] = gathered::<L, D, N, B, 0>(sources.main, &s, []).0;
-                }
-            }
-            if what.velocity && T::CHANGE {
-                change[q] = gathered::<L, D, N, B, 0>(sources.change, &s, []).0;
-            }
-        }
+        let taken = unsafe { one.take::<L, B, T>(blend, &mut gradients) };
+        (new[q], change[q], straining[q]) = (taken.new, taken.change, taken.straining);
     }
     let [radial] = L::turn::<1>(&straining);
     Offered {
@@ -262,39 +72,251 @@ unsafe fn to_each<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Trans
     }
 }
 
-/// [`gather_linear`] for point `s.q`; gradients without what nodes without mass would add to them.
-#[inline(always)]
-unsafe fn gathered<L: Lane, const D: usize, const N: usize, B: Basis<N>, const M: usize>(
-    nodes: *const Node,
-    s: &Stencil<'_, D, N>,
-    g: [&[[Four; N]; D]; M],
-) -> (L, [[L; D]; M]) {
-    // SAFETY: as the caller says
-    let (value, mut gradients) = unsafe { gather_linear::<L, D, N, M>(nodes, s, g) };
-    if B::SLOPES_JUMP {
-        for m in 0..M {
-            without_absent(value, &mut gradients[m]);
-        }
-    }
-    (value, gradients)
+/// Velocities that were taken.
+struct Taken<V> {
+    /// At the end of the step.
+    new: V,
+    /// Their change over the step.
+    change: V,
+    /// Those that strain the points.
+    straining: V,
 }
 
-/// Books the gradient of the point of a stencil, one of those from row `first` on, with the change of volume that its basis wants.
-#[inline(always)]
-unsafe fn book<L: Lane, const D: usize, const N: usize>(
-    gradients: &mut Option<(&mut Rates<D>, usize)>,
-    columns: &Columns<D>,
-    centre: &Centre<D, N>,
-    s: &Stencil<'_, D, N>,
-    first: usize,
-    velocities: *const Node,
-    mut gradient: [L; D],
-) {
-    if let Some((rates, at)) = gradients {
-        if centre.used {
+/// Where gradients go, and from which place on.
+type Gradients<'a, 'b, const D: usize> = &'a mut Option<(&'b mut Rates<D>, usize)>;
+
+/// Who takes from the grid at once: all points of a group, or one of them.
+trait Taker<const D: usize, const N: usize> {
+    /// Their velocity.
+    type Velocity<L: Lane>: Copy;
+    /// The columns of a gradient of theirs.
+    type Columns<L: Lane>: Copy;
+
+    fn asked(&self) -> &Asked<'_, D>;
+
+    fn group(&self) -> &Group<D, N>;
+
+    fn at_rest<L: Lane>() -> Self::Velocity<L>;
+
+    /// What [`gather_same`] says.
+    unsafe fn gathered<L: Lane, B: Basis<N>, const M: usize>(
+        &self,
+        nodes: *const Node,
+        g: [&[[Four; N]; D]; M],
+    ) -> (Self::Velocity<L>, [Self::Columns<L>; M]);
+
+    /// Books a gradient of `velocities`.
+    unsafe fn book<L: Lane>(
+        &self,
+        gradients: Gradients<'_, '_, D>,
+        velocities: *const Node,
+        gradient: Self::Columns<L>,
+    );
+
+    /// Stores affine fields.
+    unsafe fn set_affine<L: Lane>(&self, field: &Self::Columns<L>);
+
+    /// Takes what is asked for.
+    #[inline(always)]
+    unsafe fn take<L: Lane, B: Basis<N>, T: Transfer>(
+        &self,
+        blend: bool,
+        gradients: Gradients<'_, '_, D>,
+    ) -> Taken<Self::Velocity<L>> {
+        let (what, sources) = (self.asked().what, self.asked().sources);
+        let group = self.group();
+        // whose gathered velocities are the columns of L, and of C
+        let slope = if T::MOVING_LEAST_SQUARES {
+            &group.affine
+        } else {
+            &group.slope
+        };
+        let own = if T::TAYLOR {
+            &group.slope
+        } else {
+            &group.affine
+        };
+        let alike = T::MOVING_LEAST_SQUARES || T::TAYLOR;
+        let rest = Self::at_rest::<L>();
+        let (mut new, mut change, mut straining) = (rest, rest, rest);
+        // SAFETY: as the caller says
+        unsafe {
+            if what.rate && what.same {
+                let main = sources.main;
+                if what.velocity && T::AFFINE && !alike {
+                    let (value, [gradient, field]) = self.gathered::<L, B, 2>(main, [slope, own]);
+                    self.book(gradients, main, gradient);
+                    self.set_affine(&field);
+                    new = value;
+                } else {
+                    let (value, [gradient]) = self.gathered::<L, B, 1>(main, [slope]);
+                    self.book(gradients, main, gradient);
+                    if what.velocity && T::AFFINE {
+                        self.set_affine(&gradient);
+                    }
+                    new = value;
+                }
+                straining = new;
+            } else {
+                if what.rate {
+                    let second = sources.second;
+                    let (value, [gradient]) = self.gathered::<L, B, 1>(second, [slope]);
+                    self.book(gradients, second, gradient);
+                    straining = value;
+                }
+                if what.velocity && T::AFFINE {
+                    let (value, [field]) = self.gathered::<L, B, 1>(sources.main, [own]);
+                    self.set_affine(&field);
+                    new = value;
+                } else if (what.position && T::CHANGE) || (what.velocity && (blend || !T::CHANGE)) {
+                    new = self.gathered::<L, B, 0>(sources.main, []).0;
+                }
+            }
+            if what.velocity && T::CHANGE {
+                change = self.gathered::<L, B, 0>(sources.change, []).0;
+            }
+        }
+        Taken {
+            new,
+            change,
+            straining,
+        }
+    }
+}
+
+/// All points of a group.
+struct All<'a, const D: usize, const N: usize> {
+    asked: &'a Asked<'a, D>,
+    group: &'a Group<D, N>,
+    tile: &'a Tile<D>,
+}
+
+impl<const D: usize, const N: usize> Taker<D, N> for All<'_, D, N> {
+    type Velocity<L: Lane> = [L; D];
+    type Columns<L: Lane> = [[L; D]; D];
+
+    #[inline(always)]
+    fn asked(&self) -> &Asked<'_, D> {
+        self.asked
+    }
+
+    #[inline(always)]
+    fn group(&self) -> &Group<D, N> {
+        self.group
+    }
+
+    #[inline(always)]
+    fn at_rest<L: Lane>() -> [L; D] {
+        [L::splat(0.0); D]
+    }
+
+    #[inline(always)]
+    unsafe fn gathered<L: Lane, B: Basis<N>, const M: usize>(
+        &self,
+        nodes: *const Node,
+        g: [&[[Four; N]; D]; M],
+    ) -> ([L; D], [[[L; D]; D]; M]) {
+        let (group, tile) = (self.group, self.tile);
+        // SAFETY: as the caller says
+        unsafe {
+            if D == 1 {
+                gather_four::<L, D, N, M>(nodes, group, tile, g, B::SLOPES_JUMP)
+            } else if D == 2 && !group.same {
+                gather_apart::<L, D, N, B, M>(nodes, group, tile, g)
+            } else {
+                gather_same::<L, D, N, B, M>(nodes, group, tile, g)
+            }
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn book<L: Lane>(
+        &self,
+        gradients: Gradients<'_, '_, D>,
+        _: *const Node,
+        gradient: [[L; D]; D],
+    ) {
+        if let Some((rates, at)) = gradients {
+            rates.set_four(*at, &gradient);
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn set_affine<L: Lane>(&self, field: &[[L; D]; D]) {
+        let FourRows { first, count } = self.asked.rows;
+        // SAFETY: as the caller says
+        unsafe { self.asked.columns.set_affines(first, count, field) }
+    }
+}
+
+/// One point of a group, in 2D and 3D.
+struct One<'a, const D: usize, const N: usize> {
+    asked: &'a Asked<'a, D>,
+    s: Stencil<'a, D, N>,
+    centre: &'a Centre<D, N>,
+}
+
+impl<const D: usize, const N: usize> Taker<D, N> for One<'_, D, N> {
+    type Velocity<L: Lane> = L;
+    type Columns<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn asked(&self) -> &Asked<'_, D> {
+        self.asked
+    }
+
+    #[inline(always)]
+    fn group(&self) -> &Group<D, N> {
+        self.s.group
+    }
+
+    #[inline(always)]
+    fn at_rest<L: Lane>() -> L {
+        L::splat(0.0)
+    }
+
+    /// [`gather_linear`]; gradients without what nodes without mass would add to them.
+    #[inline(always)]
+    unsafe fn gathered<L: Lane, B: Basis<N>, const M: usize>(
+        &self,
+        nodes: *const Node,
+        g: [&[[Four; N]; D]; M],
+    ) -> (L, [[L; D]; M]) {
+        // SAFETY: as the caller says
+        let (value, mut gradients) = unsafe { gather_linear::<L, D, N, M>(nodes, &self.s, g) };
+        if B::SLOPES_JUMP {
+            for m in 0..M {
+                without_absent(value, &mut gradients[m]);
+            }
+        }
+        (value, gradients)
+    }
+
+    /// Books a gradient, with the change of volume that its basis wants.
+    #[inline(always)]
+    unsafe fn book<L: Lane>(
+        &self,
+        gradients: Gradients<'_, '_, D>,
+        velocities: *const Node,
+        mut gradient: [L; D],
+    ) {
+        let Some((rates, at)) = gradients else {
+            return;
+        };
+        let (s, columns) = (&self.s, self.asked.columns);
+        if self.centre.used {
+            let p = self.asked.rows.first + s.q;
+            let centre = self.centre;
             // SAFETY: as the caller says
-            unsafe { centre.dilate(columns, s.tile, first + s.q, s.q, velocities, &mut gradient) };
+            unsafe { centre.dilate(columns, s.tile, p, s.q, velocities, &mut gradient) };
         }
         rates.set(*at + s.q, &gradient);
+    }
+
+    #[inline(always)]
+    unsafe fn set_affine<L: Lane>(&self, field: &[L; D]) {
+        let p = self.asked.rows.first + self.s.q;
+        // SAFETY: as the caller says
+        unsafe { self.asked.columns.set_affine(p, field) }
     }
 }

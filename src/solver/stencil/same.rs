@@ -44,15 +44,25 @@ pub(super) unsafe fn gather_same<
         // number D says whether a node has mass
         // SAFETY: as the caller says
         let (_, present) = unsafe { component::<L, D, N, M>(nodes, group, tile, g, D) };
-        for m in 0..M {
-            for a in 0..D {
-                for c in 0..D {
-                    gradients[m][a][c] = (-present[m][a]).mul_add(values[c], gradients[m][a][c]);
-                }
+        free_of_absent(&values, &mut gradients, &present);
+    }
+    (values, gradients)
+}
+
+/// [`without_absent`](super::nodes::without_absent) for four points; `present` is what nodes with mass bring to a field that is one.
+#[inline(always)]
+pub(super) fn free_of_absent<L: Lane, const D: usize, const M: usize>(
+    values: &[L; D],
+    gradients: &mut [[[L; D]; D]; M],
+    present: &[[L; D]; M],
+) {
+    for m in 0..M {
+        for a in 0..D {
+            for c in 0..D {
+                gradients[m][a][c] = (-present[m][a]).mul_add(values[c], gradients[m][a][c]);
             }
         }
     }
-    (values, gradients)
 }
 
 /// Number c of the nodes: with the weights, and for each set of functions with those in place of the weights along each axis.
