@@ -103,7 +103,8 @@ impl EveryPass<'_> {
     ) {
         for mut kind in Kind::all::<D>(false) {
             // only functions whose slopes jump are told of nodes without mass. In an optimised build with assertions the portable
-            // kernels of FLIP in 3D fail here; why is not known. Without assertions they do not, and so they are tried without
+            // kernels of FLIP in 3D fail here, unless the compiler joins no scalars to vectors (-C no-vectorize-slp); in one
+            // without assertions they do not fail, and so they are tried there
             let unfit = cfg!(debug_assertions) && self.instructions == Instructions::Portable;
             kind.gaps = B::SLOPES_JUMP && !basis.dilation_at_centre() && !unfit;
             let geometry = Geometry::new(kind.corner(), 0.0625, cells, &basis);
