@@ -13,6 +13,9 @@ pub trait Lane: Real {
     fn array(self) -> [f64; 4];
     /// Number `I` four times.
     fn broadcast<const I: usize>(self) -> Self;
+    /// The same four numbers. Without registers of four they go through memory, so that the compiler does not join them with
+    /// those of other lanes: LLVM 22 (slp-vectorizer) does so to twelve, and then multiplies them with weights of other points.
+    fn on_its_own(self) -> Self;
     /// Whether all four lie in `low ..= high`; false if one is not a number.
     fn all_within(self, low: f64, high: f64) -> bool;
     /// Four whole numbers, not negative.
@@ -91,6 +94,10 @@ impl Lane for Portable {
     #[inline(always)]
     fn broadcast<const I: usize>(self) -> Self {
         Self([self.0[I]; 4])
+    }
+    #[inline(always)]
+    fn on_its_own(self) -> Self {
+        std::hint::black_box(self)
     }
     #[inline(always)]
     fn all_within(self, low: f64, high: f64) -> bool {

@@ -32,6 +32,10 @@ impl Lane for Avx {
         })
     }
     #[inline(always)]
+    fn on_its_own(self) -> Self {
+        self
+    }
+    #[inline(always)]
     fn all_within(self, low: f64, high: f64) -> bool {
         // SAFETY: module header
         unsafe {

@@ -102,11 +102,8 @@ impl EveryPass<'_> {
         cells: [i32; D],
     ) {
         for mut kind in Kind::all::<D>(false) {
-            // only functions whose slopes jump are told of nodes without mass. In an optimised build with assertions the portable
-            // kernels of FLIP in 3D fail here, unless the compiler joins no scalars to vectors (-C no-vectorize-slp); in one
-            // without assertions they do not fail, and so they are tried there
-            let unfit = cfg!(debug_assertions) && self.instructions == Instructions::Portable;
-            kind.gaps = B::SLOPES_JUMP && !basis.dilation_at_centre() && !unfit;
+            // only functions whose slopes jump are told of nodes without mass
+            kind.gaps = B::SLOPES_JUMP && !basis.dilation_at_centre();
             let geometry = Geometry::new(kind.corner(), 0.0625, cells, &basis);
             let axes: [B; D] = std::array::from_fn(|a| basis.for_spacing(SPACING[a]));
             let kernels = Stencils::<D, N, B, T> {

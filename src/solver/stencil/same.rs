@@ -108,10 +108,11 @@ unsafe fn component<L: Lane, const D: usize, const N: usize, const M: usize>(
         let wi: L = group.weight[0][i].get();
         sum = wi.mul_add(value, sum);
         for m in 0..M {
+            // what belongs to one axis is kept apart from the others, see `Lane::on_its_own`
             let gi: L = g[m][0][i].get();
-            gradient[m][0] = gi.mul_add(value, gradient[m][0]);
+            gradient[m][0] = gi.mul_add(value, gradient[m][0]).on_its_own();
             for a in 1..D {
-                gradient[m][a] = wi.mul_add(change[m][a - 1], gradient[m][a]);
+                gradient[m][a] = wi.mul_add(change[m][a - 1], gradient[m][a]).on_its_own();
             }
         }
     }
