@@ -1,7 +1,7 @@
 //! What is stored, point by point, of the things that laws compute with.
 
 use super::{Deformation, Kinematics, Stress};
-use crate::real::Real;
+use crate::real::{MOST_LANES, Real};
 use crate::tensor::Tensor;
 
 /// Something that consists of numbers, always of the same count.
@@ -105,7 +105,7 @@ numbers!(Deformation { displacement_gradient: Tensor<R, D>, transverse: R });
 numbers!(Stress { plane: Tensor<R, D>, transverse: R });
 numbers!(Kinematics { rate: Tensor<R, D>, hoop_rate: R, hoop_stretch: R, dt: R });
 
-/// Applies a function of one point to each point that `arguments` hold: the way for a law with loops or branches that four
+/// Applies a function of one point to each point that `arguments` hold: the way for a law with loops or branches that
 /// points cannot take together.
 #[inline(always)]
 pub fn one_by_one<R, A, B, A1, B1>(arguments: &A, function: impl Fn(A1) -> B1) -> B
@@ -119,7 +119,7 @@ where
     const { assert!(A::COUNT == A1::COUNT && B::COUNT == B1::COUNT) };
     const { assert!(A::COUNT <= MOST && B::COUNT <= MOST) };
     let mut numbers = [R::splat(0.0); MOST];
-    let (mut given, mut found) = ([0.0; 4 * MOST], [0.0; 4 * MOST]);
+    let (mut given, mut found) = ([0.0; MOST_LANES * MOST], [0.0; MOST_LANES * MOST]);
     arguments.to_numbers(&mut numbers[..A::COUNT]);
     R::write_rows(&mut given[..R::LANES * A::COUNT], &numbers[..A::COUNT]);
     for k in 0..R::LANES {

@@ -4,6 +4,7 @@
 use super::update::update;
 use super::{Material, Numbers, Stress, survey};
 use crate::math::{Matrix, Sum, packed_len};
+use crate::real::Instructions;
 use crate::reorder::permute_in_place;
 use crate::tensor::Tensor;
 use std::cell::UnsafeCell;
@@ -22,6 +23,20 @@ pub struct StressMut<'a> {
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub struct Rate<const D: usize>(pub [[f64; 4]; D]);
+
+impl<const D: usize> Rate<D> {
+    /// The numbers of some points' gradients, 4 D each.
+    pub(crate) fn numbers(rates: &[Self]) -> &[f64] {
+        // SAFETY: a gradient is 4 D numbers without gaps
+        unsafe { std::slice::from_raw_parts(rates.as_ptr().cast(), 4 * D * rates.len()) }
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn numbers_mut(rates: &mut [Self]) -> &mut [f64] {
+        // SAFETY: as above
+        unsafe { std::slice::from_raw_parts_mut(rates.as_mut_ptr().cast(), 4 * D * rates.len()) }
+    }
+}
 
 impl<const D: usize> From<Matrix<D>> for Rate<D> {
     fn from(gradient: Matrix<D>) -> Self {
@@ -44,8 +59,8 @@ pub struct Increments<'a, const D: usize> {
     pub hoop_stretches: &'a [f64],
     /// Duration of the step, s.
     pub dt: f64,
-    /// Whether to use wide instructions. Ignored where the processor has none.
-    pub wide: bool,
+    /// Which instructions to use, as far as the processor has them.
+    pub instructions: Instructions,
 }
 
 /// What the solver keeps of a block of points.
@@ -104,8 +119,14 @@ pub trait MaterialPoints<const D: usize>: Send + Sync {
     fn volume_ratio(&self, index: usize, hoop_stretch: f64) -> f64;
 
     /// Writes an upper estimate of ρ₀ c², Pa, of each point in `range`, see [`Material::stiffness`]; NaN where a point is turned
-    /// inside out. `wide` asks for wide instructions, where the processor has them.
-    fn stiffness(&self, range: Range<usize>, present: &Present<'_>, wide: bool, into: &mut [f64]);
+    /// inside out. The instructions are used as far as the processor has them.
+    fn stiffness(
+        &self,
+        range: Range<usize>,
+        present: &Present<'_>,
+        instructions: Instructions,
+        into: &mut [f64],
+    );
 
     /// ρ₀ c² of the undeformed material, Pa.
     fn reference_stiffness(&self) -> f64;
@@ -242,10 +263,16 @@ impl<const D: usize, M: Material<D>> MaterialPoints<D> for Points<D, M> {
             .volume_ratio(&self.memory(index), hoop_stretch)
     }
 
-    fn stiffness(&self, range: Range<usize>, present: &Present<'_>, wide: bool, into: &mut [f64]) {
+    fn stiffness(
+        &self,
+        range: Range<usize>,
+        present: &Present<'_>,
+        instructions: Instructions,
+        into: &mut [f64],
+    ) {
         let rows = range.start * Self::WIDTH..range.end * Self::WIDTH;
         let memory = self.memory.range(rows);
-        survey::stiffness(&self.material, memory, present, wide, into);
+        survey::stiffness(&self.material, memory, present, instructions, into);
     }
 
     fn reference_stiffness(&self) -> f64 {

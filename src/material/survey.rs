@@ -2,7 +2,7 @@
 
 use super::{MOST, Material, Numbers, Present, Stress};
 use crate::math::packed_len;
-use crate::real::{Portable, Real, filled_up};
+use crate::real::{Instructions, Portable, Real, filled_up};
 use crate::tensor::Tensor;
 
 /// Points that are computed together.
@@ -14,7 +14,7 @@ pub(super) fn stiffness<const D: usize, M: Material<D>>(
     material: &M,
     memory: &[f64],
     present: &Present<'_>,
-    wide: bool,
+    instructions: Instructions,
     into: &mut [f64],
 ) {
     let width = <M::Memory<f64> as Numbers<f64>>::COUNT;
@@ -37,7 +37,7 @@ pub(super) fn stiffness<const D: usize, M: Material<D>>(
         material,
         &memory[..whole * width],
         &groups_of,
-        wide,
+        instructions,
         &mut into[..whole],
     );
     let left = count - whole;
@@ -55,7 +55,13 @@ pub(super) fn stiffness<const D: usize, M: Material<D>>(
     };
     let numbers = filled_up::<{ GROUP * MOST }>(&memory[whole * width..], width);
     let mut four = [0.0; GROUP];
-    groups(material, &numbers[..GROUP * width], &group, wide, &mut four);
+    groups(
+        material,
+        &numbers[..GROUP * width],
+        &group,
+        instructions,
+        &mut four,
+    );
     into[whole..].copy_from_slice(&four[..left]);
 }
 
@@ -64,16 +70,16 @@ fn groups<const D: usize, M: Material<D>>(
     material: &M,
     memory: &[f64],
     present: &Present<'_>,
-    wide: bool,
+    instructions: Instructions,
     into: &mut [f64],
 ) {
     #[cfg(target_arch = "x86_64")]
-    if wide && crate::real::wide_instructions() {
+    if instructions.usable().wide() {
         // SAFETY: the instructions were just found
         unsafe { every_group_wide(material, memory, present, into) };
         return;
     }
-    let _ = wide;
+    let _ = instructions;
     every_group::<Portable, D, M>(material, memory, present, into);
 }
 

@@ -1,9 +1,10 @@
-//! The loop over points: four together, with wide instructions where the processor has them.
+//! The loop over points: four or eight together, with wide instructions where the processor has them.
 
 use super::{Increments, Kinematics, MOST, Material, Numbers, Rate, Stress, StressMut};
 use crate::math::packed_len;
-use crate::real::{Portable, Real, filled_up};
+use crate::real::{Instructions, Portable, Real, filled_up};
 use crate::tensor::Tensor;
+use std::ops::Range;
 
 /// Points that are computed together.
 const GROUP: usize = 4;
@@ -13,6 +14,49 @@ pub(super) struct Rows<'a, const D: usize> {
     pub(super) memory: &'a mut [f64],
     pub(super) stress: StressMut<'a>,
     pub(super) increments: Increments<'a, D>,
+}
+
+impl<'a, const D: usize> Rows<'a, D> {
+    /// The first `count` points of a law, and the others.
+    fn split_at<M: Material<D>>(self, count: usize) -> (Self, Self) {
+        let width = <M::Memory<f64> as Numbers<f64>>::COUNT;
+        let increments = self.increments;
+        let hoops = count.min(self.stress.hoop.len());
+        let (memory, other_memory) = self.memory.split_at_mut(count * width);
+        let (plane, other_plane) = self.stress.plane.split_at_mut(count * packed_len(D));
+        let (hoop, other_hoop) = self.stress.hoop.split_at_mut(hoops);
+        let part =
+            |memory: &'a mut [f64], plane: &'a mut [f64], hoop: &'a mut [f64], rows, hoops| Rows {
+                memory,
+                stress: StressMut { plane, hoop },
+                increments: part_of(&increments, rows, hoops),
+            };
+        let (all, all_hoops) = (increments.rates.len(), increments.hoop_rates.len());
+        (
+            part(memory, plane, hoop, 0..count, 0..hoops),
+            part(
+                other_memory,
+                other_plane,
+                other_hoop,
+                count..all,
+                hoops..all_hoops,
+            ),
+        )
+    }
+}
+
+/// The increments of some rows, and of some of those that have hoops.
+fn part_of<'a, const D: usize>(
+    all: &Increments<'a, D>,
+    rows: Range<usize>,
+    hoops: Range<usize>,
+) -> Increments<'a, D> {
+    Increments {
+        rates: &all.rates[rows],
+        hoop_rates: &all.hoop_rates[hoops.clone()],
+        hoop_stretches: &all.hoop_stretches[hoops],
+        ..*all
+    }
 }
 
 /// Carries the rows of some points over one step: whole groups of four, then what is left, filled up to a group with copies of
@@ -33,33 +77,33 @@ pub(super) fn update<const D: usize, M: Material<D>>(
     assert_eq!(increments.hoop_rates.len(), hoops);
     assert_eq!(increments.hoop_stretches.len(), hoops);
 
-    let whole = count - count % GROUP;
-    let hoop_whole = whole.min(hoops);
-    let (memory, memory_left) = memory.split_at_mut(whole * width);
-    let (plane, plane_left) = stress.plane.split_at_mut(whole * packed);
-    let (hoop, hoop_left) = stress.hoop.split_at_mut(hoop_whole);
-    let (rates, rates_left) = increments.rates.split_at(whole);
-    let (hoop_rates, hoop_rates_left) = increments.hoop_rates.split_at(hoop_whole);
-    let (hoop_stretches, hoop_stretches_left) = increments.hoop_stretches.split_at(hoop_whole);
-    if whole > 0 {
-        groups(
-            material,
-            Rows {
-                memory,
-                stress: StressMut { plane, hoop },
-                increments: Increments {
-                    rates,
-                    hoop_rates,
-                    hoop_stretches,
-                    ..*increments
-                },
-            },
-        );
+    let rows = Rows {
+        memory,
+        stress,
+        increments: *increments,
+    };
+    let left = count % GROUP;
+    let (whole, rest) = rows.split_at::<M>(count - left);
+    if left < count {
+        groups(material, whole);
     }
-    let left = count - whole;
     if left == 0 {
         return;
     }
+    let Rows {
+        memory: memory_left,
+        stress: StressMut {
+            plane: plane_left,
+            hoop: hoop_left,
+        },
+        increments:
+            Increments {
+                rates: rates_left,
+                hoop_rates: hoop_rates_left,
+                hoop_stretches: hoop_stretches_left,
+                ..
+            },
+    } = rest;
     let mut memory = filled_up::<{ GROUP * MOST }>(memory_left, width);
     let mut plane = filled_up::<{ GROUP * 6 }>(plane_left, packed);
     let mut hoop = filled_up::<GROUP>(hoop_left, 1);
@@ -91,20 +135,32 @@ pub(super) fn update<const D: usize, M: Material<D>>(
 
 /// Whole groups of points.
 fn groups<const D: usize, M: Material<D>>(material: &M, rows: Rows<'_, D>) {
-    #[cfg(target_arch = "x86_64")]
-    if rows.increments.wide && crate::real::wide_instructions() {
+    match rows.increments.instructions.usable() {
         // SAFETY: the instructions were just found
-        unsafe { wide(material, rows) };
-        return;
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Widest => unsafe { widest(material, rows) },
+        // SAFETY: as above
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Wide => unsafe { wide(material, rows) },
+        _ => every_group::<Portable, D, M>(material, rows),
     }
-    every_group::<Portable, D, M>(material, rows);
 }
 
-/// [`every_group`], compiled for wide instructions.
+/// [`every_group`], compiled for registers of four.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn wide<const D: usize, M: Material<D>>(material: &M, rows: Rows<'_, D>) {
     every_group::<crate::real::Avx, D, M>(material, rows);
+}
+
+/// [`every_group`], compiled for registers of eight; the last group may be one of four.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
+fn widest<const D: usize, M: Material<D>>(material: &M, rows: Rows<'_, D>) {
+    let count = rows.increments.rates.len();
+    let (eights, four) = rows.split_at::<M>(count - count % 8);
+    every_group::<crate::real::Avx512, D, M>(material, eights);
+    every_group::<crate::real::Avx, D, M>(material, four);
 }
 
 /// How many groups before their turn memory is asked for them.
@@ -115,7 +171,6 @@ pub(super) fn every_group<R: Real, const D: usize, M: Material<D>>(
     material: &M,
     rows: Rows<'_, D>,
 ) {
-    const { assert!(GROUP.is_multiple_of(R::LANES)) };
     if rows.stress.hoop.is_empty() {
         every_group_of::<R, D, M, false>(material, rows);
     } else {
@@ -152,8 +207,14 @@ fn every_group_of<R: Real, const D: usize, M: Material<D>, const HOOP: bool>(
 
         // the columns go on beyond this block
         let ahead = AHEAD * R::LANES;
-        R::prefetch(memory.as_ptr().wrapping_add(ahead * width), 4 * width);
-        R::prefetch(plane.as_ptr().wrapping_add(ahead * packed), 4 * packed);
+        R::prefetch(
+            memory.as_ptr().wrapping_add(ahead * width),
+            R::LANES * width,
+        );
+        R::prefetch(
+            plane.as_ptr().wrapping_add(ahead * packed),
+            R::LANES * packed,
+        );
 
         let mut step = Kinematics {
             rate: Tensor::zero(),
@@ -162,9 +223,7 @@ fn every_group_of<R: Real, const D: usize, M: Material<D>, const HOOP: bool>(
             dt,
         };
         for a in 0..D {
-            let column = |k: usize| &rates[k.min(R::LANES - 1)].0[a];
-            let columns = [column(0), column(1), column(2), column(3)];
-            R::read_padded(columns, &mut numbers[..D]);
+            R::read_strided(&Rate::numbers(rates)[4 * a..], 4 * D, &mut numbers[..D]);
             for i in 0..D {
                 step.rate[(i, a)] = numbers[i];
             }

@@ -62,13 +62,14 @@ impl Neg for Avx {
     }
 }
 
-/// Transposes four rows of numbers into registers, two numbers of each at a time.
+/// Transposes the starts of four rows into registers, two numbers of each at a time.
 ///
 /// # Safety
-/// The addresses lead to `numbers.len()` readable numbers each; AVX2 was found.
+/// Row k, `numbers.len()` numbers at `k * stride`, is readable; AVX2 was found.
 #[inline(always)]
-unsafe fn read(rows: [*const f64; 4], numbers: &mut [Avx]) {
+unsafe fn read(from: *const f64, stride: usize, numbers: &mut [Avx]) {
     let width = numbers.len();
+    let rows = [0, 1, 2, 3].map(|k| from.wrapping_add(k * stride));
     // SAFETY: as the caller says
     unsafe {
         for pair in 0..width / 2 {
@@ -93,10 +94,11 @@ unsafe fn read(rows: [*const f64; 4], numbers: &mut [Avx]) {
 /// Writes what [`read`] reads.
 ///
 /// # Safety
-/// The addresses lead to `numbers.len()` writable numbers each; AVX2 was found.
+/// As there, but writable.
 #[inline(always)]
-unsafe fn write(rows: [*mut f64; 4], numbers: &[Avx]) {
+unsafe fn write(to: *mut f64, stride: usize, numbers: &[Avx]) {
     let width = numbers.len();
+    let rows = [0, 1, 2, 3].map(|k| to.wrapping_add(k * stride));
     // SAFETY: as the caller says
     unsafe {
         for pair in 0..width / 2 {
@@ -139,71 +141,37 @@ impl Real for Avx {
         Self::from_array(array)
     }
     #[inline(always)]
-    fn read_rows(rows: &[f64], numbers: &mut [Self]) {
+    fn read_strided(from: &[f64], stride: usize, numbers: &mut [Self]) {
         let width = numbers.len();
-        assert_eq!(rows.len(), 4 * width);
-        let start = rows.as_ptr();
+        assert!(from.len() >= 3 * stride + width);
+        let start = from.as_ptr();
         // SAFETY: the rows are as long as that; AVX2 as for `Avx`
         unsafe {
-            if width == 1 {
+            if (width, stride) == (1, 1) {
                 numbers[0] = Self(_mm256_loadu_pd(start));
-            } else {
-                let row = [
-                    start,
-                    start.add(width),
-                    start.add(2 * width),
-                    start.add(3 * width),
-                ];
-                read(row, numbers);
-            }
-        }
-    }
-    #[inline(always)]
-    fn write_rows(rows: &mut [f64], numbers: &[Self]) {
-        let width = numbers.len();
-        assert_eq!(rows.len(), 4 * width);
-        let start = rows.as_mut_ptr();
-        // SAFETY: the rows are as long as that; AVX2 as for `Avx`
-        unsafe {
-            if width == 1 {
-                _mm256_storeu_pd(start, numbers[0].0);
-            } else {
-                let row = [
-                    start,
-                    start.add(width),
-                    start.add(2 * width),
-                    start.add(3 * width),
-                ];
-                write(row, numbers);
-            }
-        }
-    }
-    #[inline(always)]
-    fn read_padded(rows: [&[f64; 4]; 4], numbers: &mut [Self]) {
-        assert!(numbers.len() <= 4);
-        let row = [
-            rows[0].as_ptr(),
-            rows[1].as_ptr(),
-            rows[2].as_ptr(),
-            rows[3].as_ptr(),
-        ];
-        // SAFETY: the rows hold four numbers each; AVX2 as for `Avx`
-        unsafe {
-            if numbers.len() == 3 {
-                // the fourth is there as well, and two pairs cost less than a pair and a single number
+            } else if width == 3 && from.len() >= 3 * stride + 4 {
+                // two pairs cost less than a pair and a single number
                 let mut four = [Self::splat(0.0); 4];
-                read(row, &mut four);
+                read(start, stride, &mut four);
                 numbers.copy_from_slice(&four[..3]);
             } else {
-                read(row, numbers);
+                read(start, stride, numbers);
             }
         }
     }
     #[inline(always)]
-    fn write_padded(rows: [&mut [f64; 4]; 4], numbers: &[Self]) {
-        assert!(numbers.len() <= 4);
-        // SAFETY: the rows hold four numbers each; AVX2 as for `Avx`
-        unsafe { write(rows.map(|row| row.as_mut_ptr()), numbers) };
+    fn write_strided(to: &mut [f64], stride: usize, numbers: &[Self]) {
+        let width = numbers.len();
+        assert!(to.len() >= 3 * stride + width);
+        let start = to.as_mut_ptr();
+        // SAFETY: the rows are as long as that; AVX2 as for `Avx`
+        unsafe {
+            if (width, stride) == (1, 1) {
+                _mm256_storeu_pd(start, numbers[0].0);
+            } else {
+                write(start, stride, numbers);
+            }
+        }
     }
     #[inline(always)]
     fn prefetch(from: *const f64, count: usize) {

@@ -1,10 +1,12 @@
-//! Real numbers that a formula is written in once: one `f64`, or four of them that are computed together.
+//! Real numbers that a formula is written in once: one `f64`, or four or eight of them that are computed together.
 //!
-//! Functions that take numbers of four must be inlined into the function that was compiled for wide instructions: mark them
+//! Functions that take such numbers must be inlined into the function that was compiled for wide instructions: mark them
 //! `#[inline(always)]` and keep such numbers out of closures. Otherwise every operation becomes a call.
 
 #[cfg(target_arch = "x86_64")]
 mod avx;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 mod exponential;
 mod logarithm;
 mod portable;
@@ -14,12 +16,19 @@ mod tests;
 
 #[cfg(target_arch = "x86_64")]
 pub use avx::Avx;
+#[cfg(target_arch = "x86_64")]
+pub use avx512::Avx512;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx512::write_pairs;
 pub use portable::Portable;
 
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// One or four numbers. Operations between it and an `f64` take the `f64` on the right.
+/// The most numbers that are computed together.
+pub const MOST_LANES: usize = 8;
+
+/// One, four or eight numbers. Operations between it and an `f64` take the `f64` on the right.
 pub trait Real:
     Copy
     + Debug
@@ -34,7 +43,7 @@ pub trait Real:
     + Div<f64, Output = Self>
     + 'static
 {
-    /// How many numbers it holds: 1 or 4.
+    /// How many numbers it holds: 1, 4 or 8.
     const LANES: usize;
 
     /// What comparing gives.
@@ -49,19 +58,32 @@ pub trait Real:
     /// With another number in one lane.
     fn with_lane(self, k: usize, x: f64) -> Self;
 
-    /// Reads one row of `numbers.len()` numbers for each lane, the rows one after the other: row k goes to lane k of every
-    /// number.
-    fn read_rows(rows: &[f64], numbers: &mut [Self]);
+    /// Reads the first `numbers.len()` numbers of one row for each lane: row k starts `k * stride` after the first and goes to lane
+    /// k of every number.
+    ///
+    /// # Panics
+    /// If the rows are not there.
+    fn read_strided(from: &[f64], stride: usize, numbers: &mut [Self]);
+
+    /// Writes what [`Self::read_strided`] reads, and leaves the rest of the rows.
+    ///
+    /// # Panics
+    /// As there.
+    fn write_strided(to: &mut [f64], stride: usize, numbers: &[Self]);
+
+    /// [`Self::read_strided`] of rows that have no more numbers than these, one after the other.
+    #[inline(always)]
+    fn read_rows(rows: &[f64], numbers: &mut [Self]) {
+        assert_eq!(rows.len(), Self::LANES * numbers.len());
+        Self::read_strided(rows, numbers.len(), numbers);
+    }
 
     /// Writes what [`Self::read_rows`] reads.
-    fn write_rows(rows: &mut [f64], numbers: &[Self]);
-
-    /// Reads the first `numbers.len()` (at most four) of the four numbers of a row for each lane; where there is one lane only
-    /// the first row counts.
-    fn read_padded(rows: [&[f64; 4]; 4], numbers: &mut [Self]);
-
-    /// Writes what [`Self::read_padded`] reads, and leaves the rest of the rows.
-    fn write_padded(rows: [&mut [f64; 4]; 4], numbers: &[Self]);
+    #[inline(always)]
+    fn write_rows(rows: &mut [f64], numbers: &[Self]) {
+        assert_eq!(rows.len(), Self::LANES * numbers.len());
+        Self::write_strided(rows, numbers.len(), numbers);
+    }
 
     /// Asks the processor for the cache lines of `count` numbers that are needed soon. The address may be any; nothing is read.
     #[inline(always)]
@@ -130,18 +152,6 @@ pub fn filled_up<const N: usize>(rows: &[f64], width: usize) -> [f64; N] {
     four
 }
 
-/// Whether this processor has the instructions that four wide lanes need.
-pub fn wide_instructions() -> bool {
-    #[cfg(target_arch = "x86_64")]
-    {
-        std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    {
-        false
-    }
-}
-
 /// Which instructions a kernel may use, from the fewest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Instructions {
@@ -149,20 +159,33 @@ pub enum Instructions {
     Portable,
     /// Registers of four numbers: AVX2 and FMA.
     Wide,
-    /// Twice as many of them: AVX-512VL too.
-    WideAndMany,
+    /// Twice as many registers, of eight: AVX-512 (F, VL, DQ) too.
+    Widest,
 }
 
 impl Instructions {
     /// The most that this processor has.
     pub fn found() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if wide_instructions() {
-            let many = std::arch::is_x86_feature_detected!("avx512f")
-                && std::arch::is_x86_feature_detected!("avx512vl");
-            return if many { Self::WideAndMany } else { Self::Wide };
+        {
+            use std::arch::is_x86_feature_detected as found;
+            if found!("avx2") && found!("fma") {
+                let widest = found!("avx512f") && found!("avx512vl") && found!("avx512dq");
+                return if widest { Self::Widest } else { Self::Wide };
+            }
         }
         Self::Portable
+    }
+
+    /// All of them, as far as this processor has them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let all = [Self::Portable, Self::Wide, Self::Widest].into_iter();
+        all.filter(|some| *some <= Self::found())
+    }
+
+    /// These, as far as this processor has them.
+    pub fn usable(self) -> Self {
+        self.min(Self::found())
     }
 
     /// Whether there are registers of four numbers.
@@ -175,7 +198,7 @@ impl Instructions {
         match self {
             Self::Portable => "no wide instructions",
             Self::Wide => "wide instructions (AVX2, FMA)",
-            Self::WideAndMany => "wide instructions (AVX2, FMA, AVX-512VL)",
+            Self::Widest => "wide instructions (AVX2, FMA, AVX-512)",
         }
     }
 }

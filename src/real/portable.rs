@@ -77,39 +77,23 @@ impl Real for Portable {
         self
     }
     #[inline(always)]
-    fn read_rows(rows: &[f64], numbers: &mut [Self]) {
-        let width = numbers.len();
-        assert_eq!(rows.len(), 4 * width);
+    fn read_strided(from: &[f64], stride: usize, numbers: &mut [Self]) {
+        assert!(from.len() >= 3 * stride + numbers.len());
         for (i, number) in numbers.iter_mut().enumerate() {
             *number = Self([
-                rows[i],
-                rows[width + i],
-                rows[2 * width + i],
-                rows[3 * width + i],
+                from[i],
+                from[stride + i],
+                from[2 * stride + i],
+                from[3 * stride + i],
             ]);
         }
     }
     #[inline(always)]
-    fn write_rows(rows: &mut [f64], numbers: &[Self]) {
-        let width = numbers.len();
-        assert_eq!(rows.len(), 4 * width);
+    fn write_strided(to: &mut [f64], stride: usize, numbers: &[Self]) {
+        assert!(to.len() >= 3 * stride + numbers.len());
         for (i, number) in numbers.iter().enumerate() {
             for k in 0..4 {
-                rows[k * width + i] = number.0[k];
-            }
-        }
-    }
-    #[inline(always)]
-    fn read_padded(rows: [&[f64; 4]; 4], numbers: &mut [Self]) {
-        for (i, number) in numbers.iter_mut().enumerate() {
-            *number = Self([rows[0][i], rows[1][i], rows[2][i], rows[3][i]]);
-        }
-    }
-    #[inline(always)]
-    fn write_padded(rows: [&mut [f64; 4]; 4], numbers: &[Self]) {
-        for (k, row) in rows.into_iter().enumerate() {
-            for (to, number) in row.iter_mut().zip(numbers) {
-                *to = number.0[k];
+                to[k * stride + i] = number.0[k];
             }
         }
     }

@@ -30,20 +30,12 @@ impl Real for f64 {
         x
     }
     #[inline(always)]
-    fn read_rows(rows: &[f64], numbers: &mut [Self]) {
-        numbers.copy_from_slice(rows);
+    fn read_strided(from: &[f64], _: usize, numbers: &mut [Self]) {
+        numbers.copy_from_slice(&from[..numbers.len()]);
     }
     #[inline(always)]
-    fn write_rows(rows: &mut [f64], numbers: &[Self]) {
-        rows.copy_from_slice(numbers);
-    }
-    #[inline(always)]
-    fn read_padded(rows: [&[f64; 4]; 4], numbers: &mut [Self]) {
-        numbers.copy_from_slice(&rows[0][..numbers.len()]);
-    }
-    #[inline(always)]
-    fn write_padded(rows: [&mut [f64; 4]; 4], numbers: &[Self]) {
-        rows[0][..numbers.len()].copy_from_slice(numbers);
+    fn write_strided(to: &mut [f64], _: usize, numbers: &[Self]) {
+        to[..numbers.len()].copy_from_slice(numbers);
     }
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {

@@ -33,7 +33,7 @@ fn numbers() -> Vec<f64> {
         all.push((unit - 0.5) * 1500.0);
         all.push((unit - 0.5) * 10.0_f64.powi(-(k % 20)));
     }
-    all.resize(all.len().next_multiple_of(4), 1.0);
+    all.resize(all.len().next_multiple_of(8), 1.0);
     all
 }
 
@@ -48,33 +48,34 @@ fn distance(x: f64, exact: f64) -> f64 {
 
 #[inline(always)]
 fn functions<R: Real>() {
-    for four in numbers().chunks_exact(4) {
+    for some in numbers().chunks_exact(R::LANES) {
         let mut x = [R::splat(0.0)];
-        R::read_rows(four, &mut x);
+        R::read_rows(some, &mut x);
         let (ln, ln_1p, exp_m1) = (x[0].ln(), x[0].ln_1p(), x[0].exp_m1());
-        for k in 0..4 {
+        for k in 0..R::LANES {
             // the library is right to half a unit or little more
-            let error = distance(ln.lane(k), four[k].ln());
-            assert!(error <= 1.0, "ln {:e}: {error} ulp", four[k]);
-            let error = distance(ln_1p.lane(k), four[k].ln_1p());
-            assert!(error <= 2.0, "ln(1 + {:e}): {error} ulp", four[k]);
-            let error = distance(exp_m1.lane(k), four[k].exp_m1());
-            assert!(error <= 3.0, "exp({:e}) - 1: {error} ulp", four[k]);
+            let error = distance(ln.lane(k), some[k].ln());
+            assert!(error <= 1.0, "ln {:e}: {error} ulp", some[k]);
+            let error = distance(ln_1p.lane(k), some[k].ln_1p());
+            assert!(error <= 2.0, "ln(1 + {:e}): {error} ulp", some[k]);
+            let error = distance(exp_m1.lane(k), some[k].exp_m1());
+            assert!(error <= 3.0, "exp({:e}) - 1: {error} ulp", some[k]);
         }
     }
 }
 
 #[inline(always)]
 fn arithmetic<R: Real>() {
-    let (a, b) = ([1.5, -2.0, 1e9, -0.25], [3.0, 0.5, -7.0, f64::NAN]);
+    let a = [1.5, -2.0, 1e9, -0.25, 7.75, -1e-9, -3.5, 2.0];
+    let b = [3.0, 0.5, -7.0, f64::NAN, 7.75, 1.0, -4.0, f64::INFINITY];
     let (mut x, mut y) = ([R::splat(0.0)], [R::splat(0.0)]);
-    R::read_rows(&a, &mut x);
-    R::read_rows(&b, &mut y);
+    R::read_rows(&a[..R::LANES], &mut x);
+    R::read_rows(&b[..R::LANES], &mut y);
     let (x, y) = (x[0], y[0]);
     let (more, less) = (x.greater(y), x.less(y));
     let both = (more | less) & !more & x.at_most(y);
     let chosen = R::select(more, x, y);
-    for k in 0..4 {
+    for k in 0..R::LANES {
         let (a, b) = (a[k], b[k]);
         let same = |x: R, exact: f64| assert_eq!(x.lane(k).to_bits(), exact.to_bits());
         same(x + x, a + a);
@@ -82,6 +83,9 @@ fn arithmetic<R: Real>() {
         same(x / 3.0, a / 3.0);
         same(-x, -a);
         same(x.abs().sqrt(), a.abs().sqrt());
+        same(x.floor(), a.floor());
+        same(x.min(y), if a < b { a } else { b });
+        same(x.max(y), if a > b { a } else { b });
         same(x.abs().copysign(x), a);
         same(x.with_lane(k, 5.0), 5.0);
         same(x.mul_add(R::splat(2.0), R::splat(1.0)), a * 2.0 + 1.0);
@@ -96,35 +100,34 @@ fn arithmetic<R: Real>() {
 
 #[inline(always)]
 fn rows<R: Real, const WIDTH: usize>() {
-    let rows: Vec<f64> = (0..4 * WIDTH).map(|i| i as f64).collect();
+    let rows: Vec<f64> = (0..R::LANES * WIDTH).map(|i| i as f64).collect();
     let mut numbers = [R::splat(0.0); WIDTH];
     R::read_rows(&rows, &mut numbers);
     for i in 0..WIDTH {
-        for k in 0..4 {
+        for k in 0..R::LANES {
             assert_eq!(numbers[i].lane(k), (k * WIDTH + i) as f64);
         }
     }
     let mut written = vec![0.0; rows.len()];
     R::write_rows(&mut written, &numbers);
     assert_eq!(written, rows);
-    if WIDTH <= 4 {
-        let padded: Vec<[f64; 4]> = (0..8)
-            .map(|i| [0.0, 1.0, 2.0, 3.0].map(|j| 10.0 * f64::from(i) + j))
+    // rows that go on: the last one as far as it is read, or longer
+    let stride = WIDTH + 5;
+    for more in [0, 1, 5] {
+        let padded: Vec<f64> = (0..(R::LANES - 1) * stride + WIDTH + more)
+            .map(|i| i as f64)
             .collect();
-        R::read_padded(
-            [&padded[1], &padded[3], &padded[5], &padded[7]],
-            &mut numbers,
-        );
+        R::read_strided(&padded, stride, &mut numbers);
         for i in 0..WIDTH {
-            for k in 0..4 {
-                assert_eq!(numbers[i].lane(k), (10 * (1 + 2 * k) + i) as f64);
+            for k in 0..R::LANES {
+                assert_eq!(numbers[i].lane(k), (k * stride + i) as f64);
             }
         }
-        let mut written = [[-1.0; 4]; 4];
-        R::write_padded(written.each_mut(), &numbers);
-        for (k, row) in written.iter().enumerate() {
-            assert_eq!(row[..WIDTH], padded[1 + 2 * k][..WIDTH]);
-            assert!(row[WIDTH..].iter().all(|left| *left == -1.0));
+        let mut written = vec![-1.0; padded.len()];
+        R::write_strided(&mut written, stride, &numbers);
+        for (i, number) in written.iter().enumerate() {
+            let expected = if i % stride < WIDTH { i as f64 } else { -1.0 };
+            assert_eq!(*number, expected);
         }
     }
 }
@@ -162,13 +165,21 @@ fn four_portable_numbers_compute_like_four_single_ones() {
 
 #[cfg(target_arch = "x86_64")]
 #[test]
-fn four_wide_numbers_compute_like_four_single_ones() {
+fn wide_numbers_compute_like_single_ones() {
     #[target_feature(enable = "avx2,fma")]
     fn wide() {
         all::<Avx>();
     }
-    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
+    fn widest() {
+        all::<Avx512>();
+    }
+    if Instructions::found() >= Instructions::Wide {
         // SAFETY: the instructions were found
         unsafe { wide() };
+    }
+    if Instructions::found() >= Instructions::Widest {
+        // SAFETY: as above
+        unsafe { widest() };
     }
 }

@@ -7,23 +7,29 @@
 
 use crate::material::Rate;
 use crate::math::{Matrix, packed_len};
-use crate::real::{Portable, Real, filled_up};
+use crate::real::{Instructions, Portable, Real, filled_up};
 use crate::tensor::Tensor;
 
-/// Points that are computed together.
+/// Points that are computed together at least.
 const GROUP: usize = 4;
 
 /// Carries the deformation gradients F of some points, D² numbers each, over a step, and turns their rates from Ḟ into L.
-pub(super) fn deform<const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64, wide: bool) {
+pub(super) fn deform<const D: usize>(
+    f: &mut [f64],
+    rates: &mut [Rate<D>],
+    dt: f64,
+    instructions: Instructions,
+) {
     assert_eq!(f.len(), D * D * rates.len());
-    #[cfg(target_arch = "x86_64")]
-    if wide && crate::real::wide_instructions() {
+    match instructions.usable() {
         // SAFETY: the instructions were just found
-        unsafe { wide::deform(f, rates, dt) };
-        return;
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Widest => unsafe { widest::deform(f, rates, dt) },
+        // SAFETY: as above
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Wide => unsafe { wide::deform(f, rates, dt) },
+        _ => deform_all::<Portable, Portable, D>(f, rates, dt),
     }
-    let _ = wide;
-    deform_all::<Portable, D>(f, rates, dt);
 }
 
 /// First Piola–Kirchhoff stresses P, Pa, of points with deformation gradients F, D² numbers each, and Kirchhoff stresses τ, Pa,
@@ -32,47 +38,74 @@ pub(super) fn pull_back<const D: usize>(
     f: &[f64],
     stress: &[f64],
     first_piola: &mut [f64],
-    wide: bool,
+    instructions: Instructions,
 ) {
     assert_eq!(stress.len() * D * D, packed_len(D) * f.len());
     assert_eq!(first_piola.len(), f.len());
-    #[cfg(target_arch = "x86_64")]
-    if wide && crate::real::wide_instructions() {
+    match instructions.usable() {
         // SAFETY: the instructions were just found
-        unsafe { wide::pull_back::<D>(f, stress, first_piola) };
-        return;
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Widest => unsafe { widest::pull_back::<D>(f, stress, first_piola) },
+        // SAFETY: as above
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Wide => unsafe { wide::pull_back::<D>(f, stress, first_piola) },
+        _ => pull_back_all::<Portable, Portable, D>(f, stress, first_piola),
     }
-    let _ = wide;
-    pull_back_all::<Portable, D>(f, stress, first_piola);
 }
 
+/// As many as possible in groups of `R`, the others in groups of `Q`, the last of which is filled up.
 #[inline(always)]
-fn deform_all<R: Real, const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64) {
-    let mut groups = f.chunks_exact_mut(GROUP * D * D);
-    let mut rates = rates.chunks_exact_mut(GROUP);
-    for (f, rates) in groups.by_ref().zip(rates.by_ref()) {
+fn deform_all<R: Real, Q: Real, const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64) {
+    let whole = rates.len() - rates.len() % R::LANES;
+    let (rates, rates_left) = rates.split_at_mut(whole);
+    let (f, f_left) = f.split_at_mut(whole * D * D);
+    let groups = f.chunks_exact_mut(R::LANES * D * D);
+    for (f, rates) in groups.zip(rates.chunks_exact_mut(R::LANES)) {
         deform_group::<R, D>(f, rates, dt);
+    }
+    let mut groups = f_left.chunks_exact_mut(GROUP * D * D);
+    let mut rates = rates_left.chunks_exact_mut(GROUP);
+    for (f, rates) in groups.by_ref().zip(rates.by_ref()) {
+        deform_group::<Q, D>(f, rates, dt);
     }
     let (f, rates) = (groups.into_remainder(), rates.into_remainder());
     if !rates.is_empty() {
         // filled up to a group with copies of the last; what the others get depends on none of them
         let mut four = filled_up::<{ GROUP * 9 }>(f, D * D);
         let mut padded = std::array::from_fn::<_, GROUP, _>(|k| rates[k.min(rates.len() - 1)]);
-        deform_group::<R, D>(&mut four[..GROUP * D * D], &mut padded, dt);
+        deform_group::<Q, D>(&mut four[..GROUP * D * D], &mut padded, dt);
         f.copy_from_slice(&four[..f.len()]);
         rates.copy_from_slice(&padded[..rates.len()]);
     }
 }
 
+/// As [`deform_all`].
 #[inline(always)]
-fn pull_back_all<R: Real, const D: usize>(f: &[f64], stress: &[f64], first_piola: &mut [f64]) {
+fn pull_back_all<R: Real, Q: Real, const D: usize>(
+    f: &[f64],
+    stress: &[f64],
+    first_piola: &mut [f64],
+) {
     let packed = packed_len(D);
-    let all = f.chunks_exact(GROUP * D * D);
-    let stresses = stress.chunks_exact(GROUP * packed);
-    let mut to = first_piola.chunks_exact_mut(GROUP * D * D);
-    let (f_left, stress_left) = (all.remainder(), stresses.remainder());
-    for ((f, stress), to) in all.zip(stresses).zip(to.by_ref()) {
+    let count = stress.len() / packed;
+    let whole = count - count % R::LANES;
+    let (f, f_left) = f.split_at(whole * D * D);
+    let (stress, stress_left) = stress.split_at(whole * packed);
+    let (to, to_left) = first_piola.split_at_mut(whole * D * D);
+    let groups = f.chunks_exact(R::LANES * D * D);
+    let stresses = stress.chunks_exact(R::LANES * packed);
+    for ((f, stress), to) in groups
+        .zip(stresses)
+        .zip(to.chunks_exact_mut(R::LANES * D * D))
+    {
         pull_back_group::<R, D>(f, stress, to);
+    }
+    let groups = f_left.chunks_exact(GROUP * D * D);
+    let stresses = stress_left.chunks_exact(GROUP * packed);
+    let mut to = to_left.chunks_exact_mut(GROUP * D * D);
+    let (f_left, stress_left) = (groups.remainder(), stresses.remainder());
+    for ((f, stress), to) in groups.zip(stresses).zip(to.by_ref()) {
+        pull_back_group::<Q, D>(f, stress, to);
     }
     let left = to.into_remainder();
     if !left.is_empty() {
@@ -80,7 +113,7 @@ fn pull_back_all<R: Real, const D: usize>(f: &[f64], stress: &[f64], first_piola
         let stresses = filled_up::<{ GROUP * 6 }>(stress_left, packed);
         let mut result = [0.0; GROUP * 9];
         let numbers = GROUP * D * D;
-        pull_back_group::<R, D>(
+        pull_back_group::<Q, D>(
             &four[..numbers],
             &stresses[..GROUP * packed],
             &mut result[..numbers],
@@ -92,16 +125,13 @@ fn pull_back_all<R: Real, const D: usize>(f: &[f64], stress: &[f64], first_piola
 /// One group of points.
 #[inline(always)]
 fn deform_group<R: Real, const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64) {
-    let [r0, r1, r2, r3] = rates else {
-        unreachable!("a group has four points")
-    };
+    let rates = Rate::numbers_mut(rates);
     let mut numbers = [R::splat(0.0); 9];
     R::read_rows(f, &mut numbers[..D * D]);
     let start = from_columns::<R, D>(&numbers);
     let mut rate = Tensor::zero();
     for a in 0..D {
-        let columns = [&r0.0[a], &r1.0[a], &r2.0[a], &r3.0[a]];
-        R::read_padded(columns, &mut numbers[..D]);
+        R::read_strided(&rates[4 * a..], 4 * D, &mut numbers[..D]);
         for i in 0..D {
             rate[(i, a)] = numbers[i];
         }
@@ -109,8 +139,8 @@ fn deform_group<R: Real, const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], d
     let spatial = rate * start.inverse();
     to_columns(&spatial, &mut numbers);
     for a in 0..D {
-        let columns = [&mut r0.0[a], &mut r1.0[a], &mut r2.0[a], &mut r3.0[a]];
-        R::write_padded(columns, &numbers[D * a..D * (a + 1)]);
+        let column = &numbers[D * a..D * (a + 1)];
+        R::write_strided(&mut rates[4 * a..], 4 * D, column);
     }
     let end = rate.scaled_plus(R::splat(dt), start);
     to_columns(&end, &mut numbers);
@@ -154,20 +184,29 @@ fn to_columns<R: Real, const D: usize>(tensor: &Tensor<R, D>, numbers: &mut [R; 
 
 /// The loops, compiled for wide instructions.
 #[cfg(target_arch = "x86_64")]
-mod wide {
-    use super::*;
-    use crate::real::Avx;
+macro_rules! compiled_for {
+    ($module:ident, $most:ident, $features:literal) => {
+        mod $module {
+            use super::*;
+            use crate::real::{Avx, $most as Most};
 
-    #[target_feature(enable = "avx2,fma")]
-    pub fn deform<const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64) {
-        deform_all::<Avx, D>(f, rates, dt);
-    }
+            #[target_feature(enable = $features)]
+            pub fn deform<const D: usize>(f: &mut [f64], rates: &mut [Rate<D>], dt: f64) {
+                deform_all::<Most, Avx, D>(f, rates, dt);
+            }
 
-    #[target_feature(enable = "avx2,fma")]
-    pub fn pull_back<const D: usize>(f: &[f64], stress: &[f64], first_piola: &mut [f64]) {
-        pull_back_all::<Avx, D>(f, stress, first_piola);
-    }
+            #[target_feature(enable = $features)]
+            pub fn pull_back<const D: usize>(f: &[f64], stress: &[f64], first_piola: &mut [f64]) {
+                pull_back_all::<Most, Avx, D>(f, stress, first_piola);
+            }
+        }
+    };
 }
+
+#[cfg(target_arch = "x86_64")]
+compiled_for!(wide, Avx, "avx2,fma");
+#[cfg(target_arch = "x86_64")]
+compiled_for!(widest, Avx512, "avx2,fma,avx512f,avx512vl,avx512dq");
 
 /// Turns ρ₀ c² of some points, Pa, into an upper estimate of ρ₀ c₀², c₀ being the speed of a wave measured in the reference
 /// configuration; `f` are their deformation gradients.
@@ -209,22 +248,23 @@ mod tests {
         flat.copied().collect()
     }
 
-    /// Every number of points up to three groups, with all arithmetics.
+    /// Every number of points up to five groups, with all arithmetics.
     fn as_in_the_book<const D: usize>() {
         let dt = 0.3;
         let inverse = |f: &Matrix<D>| f.try_inverse().expect("F is not singular");
-        for (count, wide) in (1..=12).flat_map(|n| [(n, false), (n, true)]) {
+        let each = |n| Instructions::all().map(move |some| (n, some));
+        for (count, instructions) in (1..=20).flat_map(each) {
             let start: Vec<Matrix<D>> = (0..count)
                 .map(|k| Matrix::identity() * 1.5 + matrix(k))
                 .collect();
             let given: Vec<Matrix<D>> = (0..count).map(|k| matrix(50 + k)).collect();
             let mut rates: Vec<Rate<D>> = given.iter().map(|&rate| Rate::from(rate)).collect();
             let mut f = numbers(&start);
-            deform(&mut f, &mut rates, dt, wide);
+            deform(&mut f, &mut rates, dt, instructions);
             let width = packed_len(D);
             let stress: Vec<f64> = (0..width * count).map(number).collect();
             let mut first_piola = vec![f64::NAN; f.len()];
-            pull_back::<D>(&f, &stress, &mut first_piola, wide);
+            pull_back::<D>(&f, &stress, &mut first_piola, instructions);
             let mut stiffness: Vec<f64> = (0..count).map(|k| 1.0 + k as f64).collect();
             seen_from_reference(&start, &mut stiffness);
             for k in 0..count {

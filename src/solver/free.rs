@@ -330,18 +330,21 @@ mod tests {
             }
             let mut found = GridSums::default();
             #[cfg(target_arch = "x86_64")]
-            if use_wide && crate::real::wide_instructions() {
+            if use_wide && crate::real::Instructions::found().wide() {
                 // SAFETY: the instructions were just found
                 let sums = unsafe { wide(&free, &mut main, &mut change) };
                 free.account(&sums, &mut found);
             }
-            if !(use_wide && crate::real::wide_instructions()) {
+            if !(use_wide && crate::real::Instructions::found().wide()) {
                 let mut sums = FreeSums::<Portable>::new();
                 free.nodes(&mut main, &mut change, &mut sums);
                 free.account(&sums, &mut found);
             }
             let mut divided = start.clone();
-            divide::<D>(&mut divided, use_wide && crate::real::wide_instructions());
+            divide::<D>(
+                &mut divided,
+                use_wide && crate::real::Instructions::found().wide(),
+            );
             let mut book = GridSums::default();
             for k in 0..count {
                 let mass = start[k].0[D];

@@ -143,7 +143,7 @@ macro_rules! with_lanes {
         unsafe {
             match $instructions {
                 #[cfg(target_arch = "x86_64")]
-                Instructions::WideAndMany => wide_and_many::$kernel::<D, N, B, T>($($argument),*),
+                Instructions::Widest => widest::$kernel::<D, N, B, T>($($argument),*),
                 #[cfg(target_arch = "x86_64")]
                 Instructions::Wide => wide::$kernel::<D, N, B, T>($($argument),*),
                 _ => $kernel::<Portable, D, N, B, T>($($argument),*),
@@ -273,10 +273,10 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
 /// The kernels of `stencil`, compiled for wide instructions.
 #[cfg(target_arch = "x86_64")]
 macro_rules! compiled_for {
-    ($module:ident, $features:literal) => {
+    ($module:ident, $most:ident, $features:literal) => {
         mod $module {
             use super::*;
-            use crate::real::Avx;
+            use crate::real::$most as Most;
 
             #[target_feature(enable = $features)]
             pub unsafe fn scatter<const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
@@ -290,7 +290,9 @@ macro_rules! compiled_for {
             ) {
                 // SAFETY: passed on to the caller
                 unsafe {
-                    super::scatter::<Avx, D, N, B, T>(pass, columns, block, edge, what, main, force)
+                    super::scatter::<Most, D, N, B, T>(
+                        pass, columns, block, edge, what, main, force,
+                    )
                 }
             }
 
@@ -305,7 +307,7 @@ macro_rules! compiled_for {
             ) -> Gathered {
                 // SAFETY: passed on to the caller
                 unsafe {
-                    super::exchange::<Avx, D, N, B, T>(pass, columns, block, edge, sources, second)
+                    super::exchange::<Most, D, N, B, T>(pass, columns, block, edge, sources, second)
                 }
             }
 
@@ -323,7 +325,7 @@ macro_rules! compiled_for {
             ) -> Gathered {
                 // SAFETY: passed on to the caller
                 unsafe {
-                    super::gather::<Avx, D, N, B, T>(
+                    super::gather::<Most, D, N, B, T>(
                         pass, columns, tile, reach, rows, what, sources, rates,
                     )
                 }
@@ -333,6 +335,6 @@ macro_rules! compiled_for {
 }
 
 #[cfg(target_arch = "x86_64")]
-compiled_for!(wide, "avx2,fma");
+compiled_for!(wide, Avx, "avx2,fma");
 #[cfg(target_arch = "x86_64")]
-compiled_for!(wide_and_many, "avx2,fma,avx512f,avx512vl");
+compiled_for!(widest, Avx512, "avx2,fma,avx512f,avx512vl,avx512dq");

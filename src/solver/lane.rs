@@ -1,25 +1,60 @@
-//! Four numbers at once: with wide instructions where the processor has them, one after the other where not.
+//! Four or eight numbers at once: with wide instructions where the processor has them, one after the other where not.
 
-use crate::real::{Portable, Real};
+use crate::real::{MOST_LANES, Portable, Real};
 
-/// Four `f64` that are added and multiplied together.
+/// The same number of several points, which are computed together.
 ///
-/// In memory points stand one after the other, `D` numbers each; in lanes either a point's numbers stand together, or the same
-/// number of four points.
-pub trait Lane: Real {
+/// In memory points stand one after the other, `D` numbers each; in lanes the same number of all points stands together.
+pub trait Points: Real {
+    /// Lanes of four, into which these fall apart.
+    type Four: Lane;
+    /// Numbers `4 h .. 4 h + 4`.
+    fn four(self, h: usize) -> Self::Four;
+    /// The same numbers, which the compiler is not to join with others to longer vectors. Where they are in one register nothing is
+    /// done; else they go through memory. LLVM 22 takes the numbers of such vectors in the wrong order now and then.
+    #[inline(always)]
+    fn on_its_own(self) -> Self {
+        self
+    }
+    /// Whether all lie in `low ..= high`; false if one is not a number.
+    fn all_within(self, low: f64, high: f64) -> bool;
+    /// Writes whole numbers, not negative, one for each lane.
+    fn whole(self, to: &mut [u32; MOST_LANES]);
+    /// Reads points of `D` numbers each, one after the other: lane a has number a of each.
+    ///
+    /// # Safety
+    /// `from` points to `D` readable numbers for each lane.
+    unsafe fn load_points<const D: usize>(from: *const f64) -> [Self; D];
+    /// Writes what [`Self::load_points`] reads.
+    ///
+    /// # Safety
+    /// `to` points to `D` writable numbers for each lane.
+    unsafe fn store_points<const D: usize>(points: &[Self; D], to: *mut f64);
+    /// Reads `count` numbers, at least one and at most one for each lane; the others are zero.
+    ///
+    /// # Safety
+    /// `from` points to `count` readable numbers.
+    unsafe fn load_some(from: *const f64, count: usize) -> Self;
+    /// Writes the two numbers of each point, those of one `stride` numbers after those of the one before.
+    ///
+    /// # Safety
+    /// All these places are writable.
+    unsafe fn store_strided(pairs: [Self; 2], to: *mut f64, stride: usize);
+    /// Adds to each number of a node what all points give to it, first the sum of four points, then that of the next.
+    ///
+    /// # Safety
+    /// `node` points to four readable and writable numbers, aligned to 32 bytes.
+    unsafe fn add_sums(given: [Self; 4], node: *mut f64);
+}
+
+/// Four `f64` that are added and multiplied together: the same number of four points, or the numbers of one node.
+pub trait Lane: Points<Four = Self> {
     /// From an array.
     fn new(x: [f64; 4]) -> Self;
     /// To an array.
     fn array(self) -> [f64; 4];
     /// Number `I` four times.
     fn broadcast<const I: usize>(self) -> Self;
-    /// The same four numbers. Without registers of four they go through memory, so that the compiler does not join them with
-    /// those of other lanes: LLVM 22 (slp-vectorizer) does so to twelve, and then multiplies them with weights of other points.
-    fn on_its_own(self) -> Self;
-    /// Whether all four lie in `low ..= high`; false if one is not a number.
-    fn all_within(self, low: f64, high: f64) -> bool;
-    /// Four whole numbers, not negative.
-    fn whole(self) -> [u32; 4];
     /// Reads four numbers.
     ///
     /// # Safety
@@ -40,25 +75,8 @@ pub trait Lane: Real {
     /// # Safety
     /// `to` points to `D²` writable numbers.
     unsafe fn store_matrix<const D: usize>(columns: &[Self; D], to: *mut f64);
-    /// Reads four points of `D` numbers each, one after the other: lane a has number a of each.
-    ///
-    /// # Safety
-    /// `from` points to `4 D` readable numbers.
-    unsafe fn load_points<const D: usize>(from: *const f64) -> [Self; D];
-    /// Writes what [`Self::load_points`] reads.
-    ///
-    /// # Safety
-    /// `to` points to `4 D` writable numbers.
-    unsafe fn store_points<const D: usize>(points: &[Self; D], to: *mut f64);
     /// Lane a has number a of each of the four.
     fn turn<const D: usize>(points: &[Self; 4]) -> [Self; D];
-    /// Number a is the sum of the four numbers of lane a.
-    fn sums(lanes: [Self; 4]) -> Self;
-    /// Reads `count` numbers, one to four; the others are zero.
-    ///
-    /// # Safety
-    /// `from` points to `count` readable numbers.
-    unsafe fn load_some(from: *const f64, count: usize) -> Self;
     /// Reads two numbers at each of four addresses: lane a has number a of each.
     ///
     /// # Safety
@@ -82,6 +100,69 @@ pub trait Lane: Real {
     unsafe fn load_symmetric<const D: usize>(from: *const f64) -> [Self; D];
 }
 
+impl Points for Portable {
+    type Four = Self;
+
+    #[inline(always)]
+    fn four(self, _: usize) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn on_its_own(self) -> Self {
+        std::hint::black_box(self)
+    }
+    #[inline(always)]
+    fn all_within(self, low: f64, high: f64) -> bool {
+        self.0.iter().all(|&x| x >= low && x <= high)
+    }
+    #[inline(always)]
+    fn whole(self, to: &mut [u32; MOST_LANES]) {
+        for k in 0..4 {
+            to[k] = self.0[k] as u32;
+        }
+    }
+    #[inline(always)]
+    unsafe fn load_points<const D: usize>(from: *const f64) -> [Self; D] {
+        // SAFETY: the caller vouches for 4 D numbers
+        std::array::from_fn(|a| Self(std::array::from_fn(|q| unsafe { *from.add(q * D + a) })))
+    }
+    #[inline(always)]
+    unsafe fn store_points<const D: usize>(points: &[Self; D], to: *mut f64) {
+        for a in 0..D {
+            for q in 0..4 {
+                // SAFETY: the caller vouches for 4 D numbers
+                unsafe { *to.add(q * D + a) = points[a].0[q] };
+            }
+        }
+    }
+    #[inline(always)]
+    unsafe fn load_some(from: *const f64, count: usize) -> Self {
+        // SAFETY: the caller vouches for `count` numbers
+        Self(std::array::from_fn(|q| {
+            if q < count {
+                unsafe { *from.add(q) }
+            } else {
+                0.0
+            }
+        }))
+    }
+    #[inline(always)]
+    unsafe fn store_strided(pairs: [Self; 2], to: *mut f64, stride: usize) {
+        for q in 0..4 {
+            for a in 0..2 {
+                // SAFETY: the caller vouches for two numbers at each place
+                unsafe { *to.add(q * stride + a) = pairs[a].0[q] };
+            }
+        }
+    }
+    #[inline(always)]
+    unsafe fn add_sums(given: [Self; 4], node: *mut f64) {
+        let sums = Self(given.map(|Self(x)| (x[0] + x[1]) + (x[2] + x[3])));
+        // SAFETY: the caller vouches for four numbers
+        unsafe { (Self::load(node) + sums).store(node) }
+    }
+}
+
 impl Lane for Portable {
     #[inline(always)]
     fn new(x: [f64; 4]) -> Self {
@@ -94,18 +175,6 @@ impl Lane for Portable {
     #[inline(always)]
     fn broadcast<const I: usize>(self) -> Self {
         Self([self.0[I]; 4])
-    }
-    #[inline(always)]
-    fn on_its_own(self) -> Self {
-        std::hint::black_box(self)
-    }
-    #[inline(always)]
-    fn all_within(self, low: f64, high: f64) -> bool {
-        self.0.iter().all(|&x| x >= low && x <= high)
-    }
-    #[inline(always)]
-    fn whole(self) -> [u32; 4] {
-        self.0.map(|x| x as u32)
     }
     #[inline(always)]
     unsafe fn load(from: *const f64) -> Self {
@@ -136,37 +205,8 @@ impl Lane for Portable {
         }
     }
     #[inline(always)]
-    unsafe fn load_points<const D: usize>(from: *const f64) -> [Self; D] {
-        // SAFETY: the caller vouches for 4 D numbers
-        std::array::from_fn(|a| Self(std::array::from_fn(|q| unsafe { *from.add(q * D + a) })))
-    }
-    #[inline(always)]
-    unsafe fn store_points<const D: usize>(points: &[Self; D], to: *mut f64) {
-        for a in 0..D {
-            for q in 0..4 {
-                // SAFETY: the caller vouches for 4 D numbers
-                unsafe { *to.add(q * D + a) = points[a].0[q] };
-            }
-        }
-    }
-    #[inline(always)]
     fn turn<const D: usize>(points: &[Self; 4]) -> [Self; D] {
         std::array::from_fn(|a| Self(std::array::from_fn(|q| points[q].0[a])))
-    }
-    #[inline(always)]
-    fn sums(lanes: [Self; 4]) -> Self {
-        Self(lanes.map(|Self(x)| (x[0] + x[1]) + (x[2] + x[3])))
-    }
-    #[inline(always)]
-    unsafe fn load_some(from: *const f64, count: usize) -> Self {
-        // SAFETY: the caller vouches for `count` numbers
-        Self(std::array::from_fn(|q| {
-            if q < count {
-                unsafe { *from.add(q) }
-            } else {
-                0.0
-            }
-        }))
     }
     #[inline(always)]
     unsafe fn load_pairs(from: [*const f64; 4]) -> [Self; 2] {
@@ -210,3 +250,8 @@ impl Lane for Portable {
 
 #[cfg(target_arch = "x86_64")]
 mod avx;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+
+#[cfg(test)]
+mod tests;

@@ -227,9 +227,8 @@ impl<const D: usize> Mpm<D> {
             .map(|body| {
                 let p = &body.particles;
                 // a law that softens keeps the step of its undeformed state: it may stiffen again within a step
-                let stiffness = largest_in_parts(p.len(), |part| {
-                    max_stiffness(body, part, self.instructions.wide())
-                });
+                let stiffness =
+                    largest_in_parts(p.len(), |part| max_stiffness(body, part, self.instructions));
                 let reference = body.material.reference_stiffness();
                 let stiffness = if stiffness < reference {
                     reference

@@ -274,12 +274,7 @@ impl<const D: usize> Mpm<D> {
                 unsafe {
                     if columns.is_total() {
                         let (f, _) = columns.reference_columns(first, count);
-                        frame::deform(
-                            f,
-                            rates.of_mut(count),
-                            context.dt,
-                            context.instructions.wide(),
-                        );
+                        frame::deform(f, rates.of_mut(count), context.dt, context.instructions);
                     }
                     let (plane, hoop, hoop_stretches) = columns.law_columns(first, count);
                     let (rates, hoop_rates) = rates.of(count, hoop_stretches.len());
@@ -288,14 +283,14 @@ impl<const D: usize> Mpm<D> {
                         hoop_rates,
                         hoop_stretches,
                         dt: context.dt,
-                        wide: context.instructions.wide(),
+                        instructions: context.instructions,
                     };
                     let stress = StressMut { plane, hoop };
                     material.update(first..end, stress, &increments);
                     if columns.is_total() {
                         let (f, p) = columns.reference_columns(first, count);
                         let (stress, _, _) = columns.law_columns(first, count);
-                        frame::pull_back::<D>(f, stress, p, context.instructions.wide());
+                        frame::pull_back::<D>(f, stress, p, context.instructions);
                     }
                 }
             }

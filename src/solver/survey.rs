@@ -1,6 +1,7 @@
 //! How stiff points are, for the time step.
 
 use super::frame;
+use crate::real::Instructions;
 use crate::state::Body;
 use crate::totals::present;
 use std::ops::Range;
@@ -13,7 +14,7 @@ const GROUPS: usize = 64;
 pub(super) fn max_stiffness<const D: usize>(
     body: &Body<D>,
     range: Range<usize>,
-    wide: bool,
+    instructions: Instructions,
 ) -> f64 {
     let p = &body.particles;
     let mut numbers = [0.0; GROUPS];
@@ -22,7 +23,8 @@ pub(super) fn max_stiffness<const D: usize>(
         let rows = first..(first + GROUPS).min(range.end);
         let found = &mut numbers[..rows.len()];
         let present = present(p, rows.clone());
-        body.material.stiffness(rows.clone(), &present, wide, found);
+        body.material
+            .stiffness(rows.clone(), &present, instructions, found);
         if p.is_total() {
             frame::seen_from_reference(&p.deformation_gradient[rows], found);
         }

@@ -5,18 +5,27 @@ use crate::math::packed_len;
 use crate::real::Portable;
 use std::ops::Range;
 
-/// A number of points that is no multiple of four.
-const COUNT: usize = 11;
+/// A number of points that is a group of eight, one of four and some more.
+const COUNT: usize = 15;
 
 /// How points are updated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum How {
     /// One after the other, with single numbers.
     Singly,
-    /// In groups; with wide instructions if `wide` and the processor has them.
-    Grouped { wide: bool },
+    /// In groups.
+    Grouped(Instructions),
     /// As before, but each point in a call of its own.
-    Alone { wide: bool },
+    Alone(Instructions),
+}
+
+impl How {
+    fn instructions(self) -> Instructions {
+        match self {
+            Self::Singly => Instructions::Portable,
+            Self::Grouped(some) | Self::Alone(some) => some,
+        }
+    }
 }
 
 /// Some points of a law, and what they went through.
@@ -60,7 +69,7 @@ impl<const D: usize> Block<D> {
             *stretch *= 1.0 + dt * rate;
         }
         let each = match how {
-            How::Alone { .. } => 1,
+            How::Alone(_) => 1,
             _ => COUNT,
         };
         for (range, hoops) in self.parts(each) {
@@ -69,7 +78,7 @@ impl<const D: usize> Block<D> {
                 hoop_rates: &hoop_rates[hoops.clone()],
                 hoop_stretches: &self.stretches[hoops.clone()],
                 dt,
-                wide: matches!(how, How::Grouped { wide: true } | How::Alone { wide: true }),
+                instructions: how.instructions(),
             };
             let width = packed_len(D);
             let stress = StressMut {
@@ -96,10 +105,9 @@ impl<const D: usize> Block<D> {
     }
 
     fn stiffness(&self, how: How) -> Vec<f64> {
-        let (each, wide) = match how {
-            How::Singly => (1, false),
-            How::Grouped { wide } => (COUNT, wide),
-            How::Alone { wide } => (1, wide),
+        let each = match how {
+            How::Grouped(_) => COUNT,
+            How::Singly | How::Alone(_) => 1,
         };
         let width = packed_len(D);
         let mut found = vec![0.0; COUNT];
@@ -110,7 +118,8 @@ impl<const D: usize> Block<D> {
                 hoop_stretches: &self.stretches[hoops],
             };
             let found = &mut found[range.clone()];
-            self.points.stiffness(range, &present, wide, found);
+            self.points
+                .stiffness(range, &present, how.instructions(), found);
         }
         found
     }
@@ -118,7 +127,8 @@ impl<const D: usize> Block<D> {
 
 /// Runs a law for some steps; in the last one, point 5 is turned inside out.
 fn run<const D: usize>(law: &LawChoice, plane: Plane, how: How, garbage: f64) -> Vec<Vec<f64>> {
-    let mut numbers = Values(10);
+    // with these no other point turns inside out
+    let mut numbers = Values(11);
     let mut block = Block::<D>::new(law, plane);
     let mut history = Vec::new();
     for step in 0..12 {
@@ -153,8 +163,8 @@ in_every_dimension! {
 fn same_as_single<const D: usize>() {
     every_law::<D>(|law, plane, _, label| {
         let single = run::<D>(law, plane, How::Singly, 0.0);
-        for wide in [false, true] {
-            let grouped = run::<D>(law, plane, How::Grouped { wide }, f64::NAN);
+        for instructions in Instructions::all() {
+            let grouped = run::<D>(law, plane, How::Grouped(instructions), f64::NAN);
             for (step, (single, grouped)) in single.iter().zip(&grouped).enumerate() {
                 let scale = single.iter().copied().filter(|x| x.is_finite());
                 let scale = scale.fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -162,7 +172,7 @@ fn same_as_single<const D: usize>() {
                 for (i, (x, y)) in single.iter().zip(grouped).enumerate() {
                     assert!(
                         (x - y).abs() <= 1e-13 * scale || (x.is_nan() && y.is_nan()),
-                        "{label}, wide: {wide}, step {step}, number {i}: {x} {y}"
+                        "{label}, {instructions:?}, step {step}, number {i}: {x} {y}"
                     );
                 }
             }
@@ -186,10 +196,10 @@ fn same_as_single<const D: usize>() {
 
 fn same_as_alone<const D: usize>() {
     every_law::<D>(|law, plane, _, label| {
-        for wide in [false, true] {
-            let grouped = run::<D>(law, plane, How::Grouped { wide }, 1.0);
-            let alone = run::<D>(law, plane, How::Alone { wide }, f64::INFINITY);
-            assert_eq!(bits(&grouped), bits(&alone), "{label}, wide: {wide}");
+        for instructions in Instructions::all() {
+            let grouped = run::<D>(law, plane, How::Grouped(instructions), 1.0);
+            let alone = run::<D>(law, plane, How::Alone(instructions), f64::INFINITY);
+            assert_eq!(bits(&grouped), bits(&alone), "{label}, {instructions:?}");
         }
     });
 }

@@ -6,6 +6,7 @@ mod point;
 
 use super::*;
 use crate::math::Matrix;
+use crate::real::Instructions;
 use point::{Point, Values, determinant, inverse, symmetric_eigen};
 
 const ELASTICITY: Isotropic = Isotropic::new(100.0, 0.3);

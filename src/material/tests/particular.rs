@@ -98,7 +98,7 @@ fn blocks_of_points_may_be_updated_from_several_threads() {
                         hoop_rates: &[],
                         hoop_stretches: &[],
                         dt: 1.0,
-                        wide: true,
+                        instructions: Instructions::Widest,
                     };
                     let stress = StressMut {
                         plane,
@@ -134,7 +134,7 @@ fn reordered_points_keep_their_memory() {
         hoop_rates: &[],
         hoop_stretches: &[],
         dt: 1.0,
-        wide: true,
+        instructions: Instructions::Widest,
     };
     let all = StressMut {
         plane: &mut stress,

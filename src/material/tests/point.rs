@@ -2,6 +2,7 @@
 
 use crate::material::*;
 use crate::math::{Matrix, packed_len, unpack};
+use crate::real::Instructions;
 use crate::tensor::Tensor;
 
 pub(super) fn determinant<const D: usize>(m: &Matrix<D>) -> f64 {
@@ -50,7 +51,7 @@ impl<const D: usize> Point<D> {
             hoop_rates: &[hoop / dt][..hoops],
             hoop_stretches: &[self.hoop_stretch][..hoops],
             dt,
-            wide: true,
+            instructions: Instructions::Widest,
         };
         let stress = StressMut {
             plane: &mut self.stress,
@@ -99,7 +100,8 @@ impl<const D: usize> Point<D> {
     pub(super) fn stiffness(&self) -> f64 {
         let mut found = [0.0];
         let present = self.present().0;
-        self.points.stiffness(0..1, &present, true, &mut found);
+        self.points
+            .stiffness(0..1, &present, Instructions::Widest, &mut found);
         // as the time step takes it: a law that has collapsed has no waves
         if found[0] < 0.0 { 0.0 } else { found[0] }
     }

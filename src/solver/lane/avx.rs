@@ -4,35 +4,16 @@
 //! called after both were found at run time; its methods are inlined there, which makes the instructions sound and fast. The
 //! addresses are the callers' to vouch for.
 
-use super::Lane;
+use super::{Lane, Points};
+use crate::real::MOST_LANES;
 use crate::real::{Avx, Real};
 use std::arch::x86_64::*;
 
-impl Lane for Avx {
+impl Points for Avx {
+    type Four = Self;
+
     #[inline(always)]
-    fn new(x: [f64; 4]) -> Self {
-        // SAFETY: both types are 32 bytes of f64
-        Self(unsafe { std::mem::transmute::<[f64; 4], __m256d>(x) })
-    }
-    #[inline(always)]
-    fn array(self) -> [f64; 4] {
-        // SAFETY: both types are 32 bytes of f64
-        unsafe { std::mem::transmute::<__m256d, [f64; 4]>(self.0) }
-    }
-    #[inline(always)]
-    fn broadcast<const I: usize>(self) -> Self {
-        // SAFETY: module header
-        Self(unsafe {
-            match I {
-                0 => _mm256_permute4x64_pd::<0b00_00_00_00>(self.0),
-                1 => _mm256_permute4x64_pd::<0b01_01_01_01>(self.0),
-                2 => _mm256_permute4x64_pd::<0b10_10_10_10>(self.0),
-                _ => _mm256_permute4x64_pd::<0b11_11_11_11>(self.0),
-            }
-        })
-    }
-    #[inline(always)]
-    fn on_its_own(self) -> Self {
+    fn four(self, _: usize) -> Self {
         self
     }
     #[inline(always)]
@@ -45,50 +26,9 @@ impl Lane for Avx {
         }
     }
     #[inline(always)]
-    fn whole(self) -> [u32; 4] {
-        // SAFETY: module header; both types are 16 bytes of integers
-        unsafe { std::mem::transmute::<__m128i, [u32; 4]>(_mm256_cvttpd_epi32(self.0)) }
-    }
-    #[inline(always)]
-    unsafe fn load(from: *const f64) -> Self {
-        // SAFETY: module header
-        Self(unsafe { _mm256_load_pd(from) })
-    }
-    #[inline(always)]
-    unsafe fn store(self, to: *mut f64) {
-        // SAFETY: module header
-        unsafe { _mm256_store_pd(to, self.0) }
-    }
-    #[inline(always)]
-    unsafe fn load_point<const D: usize>(from: *const f64) -> Self {
-        // SAFETY: module header
-        Self(unsafe {
-            match D {
-                1 => _mm256_zextpd128_pd256(_mm_load_sd(from)),
-                2 => _mm256_zextpd128_pd256(_mm_loadu_pd(from)),
-                _ => _mm256_maskload_pd(from, _mm256_set_epi64x(0, -1, -1, -1)),
-            }
-        })
-    }
-    #[inline(always)]
-    unsafe fn store_matrix<const D: usize>(columns: &[Self; D], to: *mut f64) {
-        // SAFETY: module header
-        unsafe {
-            match D {
-                1 => _mm_store_sd(to, _mm256_castpd256_pd128(columns[0].0)),
-                2 => _mm256_storeu_pd(
-                    to,
-                    _mm256_permute2f128_pd::<0x20>(columns[0].0, columns[1].0),
-                ),
-                _ => {
-                    // the fourth number of a column is written over by the next
-                    _mm256_storeu_pd(to, columns[0].0);
-                    _mm256_storeu_pd(to.add(3), columns[1].0);
-                    _mm_storeu_pd(to.add(6), _mm256_castpd256_pd128(columns[2].0));
-                    _mm_store_sd(to.add(8), _mm256_extractf128_pd::<1>(columns[2].0));
-                }
-            }
-        }
+    fn whole(self, to: &mut [u32; MOST_LANES]) {
+        // SAFETY: module header; there is room for four numbers
+        unsafe { _mm_storeu_si128(to.as_mut_ptr().cast(), _mm256_cvttpd_epi32(self.0)) }
     }
     #[inline(always)]
     unsafe fn load_points<const D: usize>(from: *const f64) -> [Self; D] {
@@ -145,6 +85,105 @@ impl Lane for Avx {
         }
     }
     #[inline(always)]
+    unsafe fn load_some(from: *const f64, count: usize) -> Self {
+        // SAFETY: module header
+        Self(unsafe {
+            let places = _mm256_set_epi64x(3, 2, 1, 0);
+            let there = _mm256_cmpgt_epi64(_mm256_set1_epi64x(count as i64), places);
+            _mm256_maskload_pd(from, there)
+        })
+    }
+    #[inline(always)]
+    unsafe fn store_strided(pairs: [Self; 2], to: *mut f64, stride: usize) {
+        // SAFETY: module header
+        unsafe {
+            let pairs = pair_up(pairs);
+            for q in 0..4 {
+                _mm_storeu_pd(to.add(q * stride), pairs[q]);
+            }
+        }
+    }
+    #[inline(always)]
+    unsafe fn add_sums(given: [Self; 4], node: *mut f64) {
+        // SAFETY: module header
+        unsafe {
+            let [a, b, c, d] = [given[0].0, given[1].0, given[2].0, given[3].0];
+            // a₀ + a₁, b₀ + b₁, a₂ + a₃, b₂ + b₃
+            let ab = _mm256_add_pd(_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+            let cd = _mm256_add_pd(_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
+            let low = _mm256_blend_pd::<0b1100>(ab, cd);
+            let high = _mm256_permute2f128_pd::<0x21>(ab, cd);
+            let sums = Self(_mm256_add_pd(low, high));
+            (Self::load(node) + sums).store(node);
+        }
+    }
+}
+
+impl Lane for Avx {
+    #[inline(always)]
+    fn new(x: [f64; 4]) -> Self {
+        // SAFETY: both types are 32 bytes of f64
+        Self(unsafe { std::mem::transmute::<[f64; 4], __m256d>(x) })
+    }
+    #[inline(always)]
+    fn array(self) -> [f64; 4] {
+        // SAFETY: both types are 32 bytes of f64
+        unsafe { std::mem::transmute::<__m256d, [f64; 4]>(self.0) }
+    }
+    #[inline(always)]
+    fn broadcast<const I: usize>(self) -> Self {
+        // SAFETY: module header
+        Self(unsafe {
+            match I {
+                0 => _mm256_permute4x64_pd::<0b00_00_00_00>(self.0),
+                1 => _mm256_permute4x64_pd::<0b01_01_01_01>(self.0),
+                2 => _mm256_permute4x64_pd::<0b10_10_10_10>(self.0),
+                _ => _mm256_permute4x64_pd::<0b11_11_11_11>(self.0),
+            }
+        })
+    }
+    #[inline(always)]
+    unsafe fn load(from: *const f64) -> Self {
+        // SAFETY: module header
+        Self(unsafe { _mm256_load_pd(from) })
+    }
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f64) {
+        // SAFETY: module header
+        unsafe { _mm256_store_pd(to, self.0) }
+    }
+    #[inline(always)]
+    unsafe fn load_point<const D: usize>(from: *const f64) -> Self {
+        // SAFETY: module header
+        Self(unsafe {
+            match D {
+                1 => _mm256_zextpd128_pd256(_mm_load_sd(from)),
+                2 => _mm256_zextpd128_pd256(_mm_loadu_pd(from)),
+                _ => _mm256_maskload_pd(from, _mm256_set_epi64x(0, -1, -1, -1)),
+            }
+        })
+    }
+    #[inline(always)]
+    unsafe fn store_matrix<const D: usize>(columns: &[Self; D], to: *mut f64) {
+        // SAFETY: module header
+        unsafe {
+            match D {
+                1 => _mm_store_sd(to, _mm256_castpd256_pd128(columns[0].0)),
+                2 => _mm256_storeu_pd(
+                    to,
+                    _mm256_permute2f128_pd::<0x20>(columns[0].0, columns[1].0),
+                ),
+                _ => {
+                    // the fourth number of a column is written over by the next
+                    _mm256_storeu_pd(to, columns[0].0);
+                    _mm256_storeu_pd(to.add(3), columns[1].0);
+                    _mm_storeu_pd(to.add(6), _mm256_castpd256_pd128(columns[2].0));
+                    _mm_store_sd(to.add(8), _mm256_extractf128_pd::<1>(columns[2].0));
+                }
+            }
+        }
+    }
+    #[inline(always)]
     fn turn<const D: usize>(points: &[Self; 4]) -> [Self; D] {
         let mut turned = [Self::splat(0.0); D];
         // SAFETY: module header
@@ -161,28 +200,6 @@ impl Lane for Avx {
             }
         }
         turned
-    }
-    #[inline(always)]
-    fn sums(lanes: [Self; 4]) -> Self {
-        // SAFETY: module header
-        unsafe {
-            let [a, b, c, d] = [lanes[0].0, lanes[1].0, lanes[2].0, lanes[3].0];
-            // a₀ + a₁, b₀ + b₁, a₂ + a₃, b₂ + b₃
-            let ab = _mm256_add_pd(_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
-            let cd = _mm256_add_pd(_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
-            let low = _mm256_blend_pd::<0b1100>(ab, cd);
-            let high = _mm256_permute2f128_pd::<0x21>(ab, cd);
-            Self(_mm256_add_pd(low, high))
-        }
-    }
-    #[inline(always)]
-    unsafe fn load_some(from: *const f64, count: usize) -> Self {
-        // SAFETY: module header
-        Self(unsafe {
-            let places = _mm256_set_epi64x(3, 2, 1, 0);
-            let there = _mm256_cmpgt_epi64(_mm256_set1_epi64x(count as i64), places);
-            _mm256_maskload_pd(from, there)
-        })
     }
     #[inline(always)]
     unsafe fn load_pairs(from: [*const f64; 4]) -> [Self; 2] {

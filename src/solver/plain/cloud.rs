@@ -83,23 +83,33 @@ pub(super) fn points<const D: usize>(
     };
     let first = |x: &[f64; D]| kernels.first(0, x, &geometry.cells);
     let block = |x: &[f64; D]| first(x).map(|first| first.div_euclid(edge));
-    // every other cell that is met has four points, which stand first in their block: whole groups with the same nodes
-    let mut places: Vec<([f64; D], bool)> = Vec::new();
+    // half of the points are eight or four in a cell, which stand first in their block: whole groups with the same nodes
+    let mut places: Vec<([f64; D], usize)> = Vec::new();
     while places.len() < count {
         let x = place(random, places.len());
-        let four = places.len().is_multiple_of(8);
-        places.push((x, four));
-        while four && !places.len().is_multiple_of(4) {
+        let together = match places.len() % 24 {
+            0 => 8,
+            8 => 4,
+            _ => 1,
+        };
+        places.push((x, together));
+        let mut more = together - 1;
+        while more > 0 {
             let near: [f64; D] = std::array::from_fn(|a| x[a] + 0.5 * random.next());
             let inside = (0..D).all(|a| near[a] >= 0.0 && near[a] <= f64::from(geometry.cells[a]));
             if inside && first(&near) == first(&x) {
-                places.push((near, true));
+                places.push((near, together));
+                more -= 1;
             }
         }
     }
-    places.sort_by_key(|(x, four)| (block(x), !four, if *four { first(x) } else { [0; D] }));
+    let count = places.len();
+    places.sort_by_key(|(x, together)| {
+        let cell = if *together > 1 { first(x) } else { [0; D] };
+        (block(x), 8 - together, cell)
+    });
     let mut occupied: Vec<([i32; D], (u32, u32))> = Vec::new();
-    for (row, (x, four)) in places.iter_mut().enumerate() {
+    for (row, (x, together)) in places.iter_mut().enumerate() {
         let key = block(x);
         match occupied.last_mut() {
             Some((last, (_, end))) if *last == key => *end += 1,
@@ -112,18 +122,22 @@ pub(super) fn points<const D: usize>(
             kernels.shift(0),
         );
         let strayed = std::array::from_fn(|a| x[a] + 0.97 * random.next());
-        if row % 3 > 0 && !*four && reach.holds(&strayed) {
+        if row % 3 > 0 && *together == 1 && reach.holds(&strayed) {
             *x = strayed;
         }
     }
     let places: Vec<[f64; D]> = places.into_iter().map(|(x, _)| x).collect();
-    let same = occupied.iter().flat_map(|&(_, (from, to))| {
-        let rows = &places[from as usize..to as usize];
-        rows.chunks_exact(4)
-            .filter(|four| four.iter().all(|x| first(x) == first(&four[0])))
-    });
-    let (same, groups) = (same.count(), count / 4);
-    assert!(same > groups / 4 && same < groups, "{same} of {groups}");
+    let share_of_same = |size: usize| {
+        let same = occupied.iter().flat_map(|&(_, (from, to))| {
+            let rows = &places[from as usize..to as usize];
+            rows.chunks_exact(size)
+                .filter(|some| some.iter().all(|x| first(x) == first(&some[0])))
+        });
+        (size * same.count()) as f64 / count as f64
+    };
+    let (fours, eights) = (share_of_same(4), share_of_same(8));
+    assert!(fours > 0.3 && fours < 0.7, "{fours}");
+    assert!(eights > 0.2 && eights < 0.5, "{eights}");
     let mut blocks = Blocks::default();
     blocks.rebuild(edge, &geometry.counts, &[occupied]);
     let mut numbers = |count: usize| -> Vec<f64> { (0..count).map(|_| random.next()).collect() };

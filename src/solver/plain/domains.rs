@@ -1,9 +1,10 @@
 //! Domains: their functions node by node, and what they promise.
 
 use super::cloud::Kind;
-use super::compare::{EveryPass, SPACING, every_instructions};
+use super::compare::{EveryPass, SPACING};
 use super::*;
 use crate::basis::Cpdi;
+use crate::real::Instructions;
 use crate::solver::Domains;
 use crate::transfer::{Apic, Flip, MlsApic, Pic, Tpic, Transfer};
 use std::cell::Cell;
@@ -88,7 +89,7 @@ fn compare<const D: usize, T: Transfer>(cells: [i32; D], transfer: T, method: Me
             transfer,
         };
         let knows = |p: &Particles<D>, i: usize| known_by_domain(&geometry, p, i);
-        for instructions in every_instructions() {
+        for instructions in Instructions::all() {
             let name = std::any::type_name::<T>();
             let bits = &Cell::new(0);
             let pass = EveryPass { instructions, bits };

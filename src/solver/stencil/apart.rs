@@ -2,7 +2,7 @@
 //! without common nodes too; in 3D they do not.
 
 use super::Tile;
-use super::group::{Four, Group};
+use super::group::{Group, Kept};
 use super::nodes::Stencil;
 use super::same::{free_of_absent, more};
 use crate::basis::Basis;
@@ -23,9 +23,9 @@ pub(super) unsafe fn gather_apart<
     const M: usize,
 >(
     nodes: *const Node,
-    group: &Group<D, N>,
+    group: &Group<L, D, N>,
     tile: &Tile<D>,
-    g: [&[[Four; N]; D]; M],
+    g: [&[[Kept<L>; N]; D]; M],
 ) -> ([L; D], [[[L; D]; D]; M]) {
     let zero = L::splat(0.0);
     let mut values = [zero; D];
@@ -58,9 +58,9 @@ pub(super) unsafe fn gather_apart<
 #[inline(always)]
 unsafe fn two<L: Lane, const D: usize, const N: usize, const M: usize>(
     nodes: *const Node,
-    group: &Group<D, N>,
+    group: &Group<L, D, N>,
     tile: &Tile<D>,
-    g: [&[[Four; N]; D]; M],
+    g: [&[[Kept<L>; N]; D]; M],
     c: usize,
 ) -> (Two<L>, [[Two<L>; 2]; M]) {
     let zero = L::splat(0.0);

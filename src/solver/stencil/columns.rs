@@ -1,7 +1,8 @@
 //! The columns of a body's points, as threads share them.
 
 use crate::math::{Matrix, Vector, packed_len};
-use crate::solver::lane::Lane;
+use crate::real::MOST_LANES;
+use crate::solver::lane::{Lane, Points};
 use crate::state::Particles;
 use std::mem::MaybeUninit;
 
@@ -81,20 +82,20 @@ impl<const D: usize> Columns<D> {
     /// Asks for what the points of the next groups bring to a pass: a column stops every 4 kB for the processor's own guess of
     /// what comes next.
     #[inline(always)]
-    pub(super) fn prefetch<L: Lane>(&self, first: usize, affine: bool, stress: bool) {
+    pub(super) fn prefetch<P: Points>(&self, first: usize, affine: bool, stress: bool) {
         let p = first + AHEAD;
-        L::prefetch(self.place.wrapping_add(p).cast(), 4 * D);
-        L::prefetch(self.velocity.wrapping_add(p).cast(), 4 * D);
-        L::prefetch(self.mass.wrapping_add(p & self.each_mass), 4);
+        P::prefetch(self.place.wrapping_add(p).cast(), P::LANES * D);
+        P::prefetch(self.velocity.wrapping_add(p).cast(), P::LANES * D);
+        P::prefetch(self.mass.wrapping_add(p & self.each_mass), P::LANES);
         if affine {
-            L::prefetch(self.affine.wrapping_add(p).cast(), 4 * D * D);
+            P::prefetch(self.affine.wrapping_add(p).cast(), P::LANES * D * D);
         }
         if stress {
             if self.total {
-                L::prefetch(self.first_piola.wrapping_add(p).cast(), 4 * D * D);
+                P::prefetch(self.first_piola.wrapping_add(p).cast(), P::LANES * D * D);
             } else {
                 let width = packed_len(D);
-                L::prefetch(self.stress.wrapping_add(p * width), 4 * width);
+                P::prefetch(self.stress.wrapping_add(p * width), P::LANES * width);
             }
         }
     }
@@ -104,25 +105,26 @@ impl<const D: usize> Columns<D> {
         self.total
     }
 
-    /// Where `count` points from row `first` on stand in the grid, four at most, m; the last stands for those that there are
+    /// Where `count` points from row `first` on stand in the grid, at most one a lane, m; the last stands for those that there
+    /// are not.
+    ///
+    /// # Safety
+    /// No other thread writes to these rows meanwhile.
+    #[inline(always)]
+    pub(super) unsafe fn places<P: Points>(&self, first: usize, count: usize) -> [P; D] {
+        // SAFETY: the rows exist
+        unsafe { points::<P, D>(self.place.add(first), count) }
+    }
+
+    /// Present positions of `count` points from row `first` on, at most one a lane, m; the last stands for those that there are
     /// not.
     ///
     /// # Safety
     /// No other thread writes to these rows meanwhile.
     #[inline(always)]
-    pub(super) unsafe fn places<L: Lane>(&self, first: usize, count: usize) -> [L; D] {
+    pub(super) unsafe fn positions<P: Points>(&self, first: usize, count: usize) -> [P; D] {
         // SAFETY: the rows exist
-        unsafe { points::<L, D>(self.place.add(first), count) }
-    }
-
-    /// Present positions of `count` points from row `first` on, four at most, m; the last stands for those that there are not.
-    ///
-    /// # Safety
-    /// No other thread writes to these rows meanwhile.
-    #[inline(always)]
-    pub(super) unsafe fn positions<L: Lane>(&self, first: usize, count: usize) -> [L; D] {
-        // SAFETY: the rows exist
-        unsafe { points::<L, D>(self.position.add(first), count) }
+        unsafe { points::<P, D>(self.position.add(first), count) }
     }
 
     /// Velocities, as for [`Self::positions`].
@@ -130,9 +132,9 @@ impl<const D: usize> Columns<D> {
     /// # Safety
     /// As there.
     #[inline(always)]
-    pub(super) unsafe fn velocities<L: Lane>(&self, first: usize, count: usize) -> [L; D] {
+    pub(super) unsafe fn velocities<P: Points>(&self, first: usize, count: usize) -> [P; D] {
         // SAFETY: the rows exist
-        unsafe { points::<L, D>(self.velocity.add(first), count) }
+        unsafe { points::<P, D>(self.velocity.add(first), count) }
     }
 
     /// Mass of the point in row `p`.
@@ -150,16 +152,16 @@ impl<const D: usize> Columns<D> {
     /// # Safety
     /// As for [`Self::positions`].
     #[inline(always)]
-    pub(super) unsafe fn masses<L: Lane>(&self, first: usize, count: usize) -> L {
+    pub(super) unsafe fn masses<P: Points>(&self, first: usize, count: usize) -> P {
         // SAFETY: the rows exist
         unsafe {
             if self.each_mass != 0 {
-                return numbers::<L>(self.mass.add(first), count);
+                return numbers::<P>(self.mass.add(first), count);
             }
-            if count == 4 {
-                return L::splat(*self.mass);
+            if count == P::LANES {
+                return P::splat(*self.mass);
             }
-            L::load_some([*self.mass; 4].as_ptr(), count)
+            P::load_some([*self.mass; MOST_LANES].as_ptr(), count)
         }
     }
 
@@ -168,14 +170,14 @@ impl<const D: usize> Columns<D> {
     /// # Safety
     /// As for [`Self::positions`].
     #[inline(always)]
-    pub(super) unsafe fn line_stresses<L: Lane>(&self, first: usize, count: usize) -> L {
+    pub(super) unsafe fn line_stresses<P: Points>(&self, first: usize, count: usize) -> P {
         let stress = if self.total {
             self.first_piola.cast_const().cast::<f64>()
         } else {
             self.stress.cast_const()
         };
         // SAFETY: the rows exist, a number each in 1D
-        unsafe { numbers::<L>(stress.add(first), count) }
+        unsafe { numbers::<P>(stress.add(first), count) }
     }
 
     /// In 1D the affine fields, zero for points that there are not.
@@ -183,36 +185,36 @@ impl<const D: usize> Columns<D> {
     /// # Safety
     /// As for [`Self::positions`].
     #[inline(always)]
-    pub(super) unsafe fn line_affines<L: Lane>(&self, first: usize, count: usize) -> L {
+    pub(super) unsafe fn line_affines<P: Points>(&self, first: usize, count: usize) -> P {
         // SAFETY: the rows exist, a number each in 1D
-        unsafe { numbers::<L>(self.affine.cast_const().cast::<f64>().add(first), count) }
+        unsafe { numbers::<P>(self.affine.cast_const().cast::<f64>().add(first), count) }
     }
 
-    /// The columns of four points' affine fields, in 2D and 3D.
+    /// The columns of the affine fields of as many points as there are lanes, in 2D and 3D.
     ///
     /// # Safety
-    /// As for [`Self::positions`]; all four rows exist.
+    /// As for [`Self::positions`]; all these rows exist.
     #[inline(always)]
-    pub(super) unsafe fn affines<L: Lane>(&self, first: usize) -> [[L; D]; D] {
+    pub(super) unsafe fn affines<P: Points>(&self, first: usize) -> [[P; D]; D] {
         // SAFETY: the rows exist
-        unsafe { matrices::<L, D>(self.affine.add(first)) }
+        unsafe { matrices::<P, D>(self.affine.add(first)) }
     }
 
-    /// The columns of the stresses of four points that forces follow from, in 2D and 3D.
+    /// The columns of the stresses that forces follow from, of as many points as there are lanes, in 2D and 3D.
     ///
     /// # Safety
     /// As for [`Self::affines`].
     #[inline(always)]
-    pub(super) unsafe fn stresses<L: Lane>(&self, first: usize) -> [[L; D]; D] {
+    pub(super) unsafe fn stresses<P: Points>(&self, first: usize) -> [[P; D]; D] {
         // SAFETY: the rows exist
         unsafe {
             if self.total {
-                return matrices::<L, D>(self.first_piola.add(first));
+                return matrices::<P, D>(self.first_piola.add(first));
             }
             let width = packed_len(D);
-            let rows = std::slice::from_raw_parts(self.stress.add(first * width), 4 * width);
-            let mut packed = [L::splat(0.0); 6];
-            L::read_rows(rows, &mut packed[..width]);
+            let rows = std::slice::from_raw_parts(self.stress.add(first * width), P::LANES * width);
+            let mut packed = [P::splat(0.0); 6];
+            P::read_rows(rows, &mut packed[..width]);
             let mut columns = [[packed[0]; D]; D];
             let mut at = 0;
             for a in 0..D {
@@ -226,36 +228,36 @@ impl<const D: usize> Columns<D> {
         }
     }
 
-    /// Hoop stresses of four points.
+    /// Hoop stresses of as many points as there are lanes.
     ///
     /// # Safety
     /// As for [`Self::affines`]; the body is axisymmetric.
     #[inline(always)]
-    pub(super) unsafe fn hoop_stresses<L: Lane>(&self, first: usize) -> L {
+    pub(super) unsafe fn hoop_stresses<P: Points>(&self, first: usize) -> P {
         // SAFETY: the rows exist
-        unsafe { numbers::<L>(self.hoop_stress.add(first), 4) }
+        unsafe { numbers::<P>(self.hoop_stress.add(first), P::LANES) }
     }
 
-    /// Writes the affine fields of points, in 2D and 3D of four, given the columns of their matrices.
+    /// Writes the affine fields of points, in 2D and 3D of one a lane, given the columns of their matrices.
     ///
     /// # Safety
     /// As for [`Self::set_positions`].
     #[inline(always)]
-    pub(super) unsafe fn set_affines<L: Lane>(
+    pub(super) unsafe fn set_affines<P: Points>(
         &self,
         first: usize,
         count: usize,
-        field: &[[L; D]; D],
+        field: &[[P; D]; D],
     ) {
         // SAFETY: the rows exist, D² numbers each without gaps
         unsafe {
             if D == 1 {
                 let to = self.affine.cast::<Vector<1>>().add(first);
-                return set_points::<L, 1>(to, count, &[field[0][0]]);
+                return set_points::<P, 1>(to, count, &[field[0][0]]);
             }
-            let rows =
-                std::slice::from_raw_parts_mut(self.affine.add(first).cast::<f64>(), 4 * D * D);
-            L::write_rows(rows, field.as_flattened());
+            let to = self.affine.add(first).cast::<f64>();
+            let rows = std::slice::from_raw_parts_mut(to, P::LANES * D * D);
+            P::write_rows(rows, field.as_flattened());
         }
     }
 
@@ -274,9 +276,9 @@ impl<const D: usize> Columns<D> {
     /// # Safety
     /// No other thread uses these rows meanwhile.
     #[inline(always)]
-    pub(super) unsafe fn set_positions<L: Lane>(&self, first: usize, count: usize, x: &[L; D]) {
+    pub(super) unsafe fn set_positions<P: Points>(&self, first: usize, count: usize, x: &[P; D]) {
         // SAFETY: the rows exist
-        unsafe { set_points::<L, D>(self.position.add(first), count, x) }
+        unsafe { set_points::<P, D>(self.position.add(first), count, x) }
     }
 
     /// Writes velocities.
@@ -284,9 +286,9 @@ impl<const D: usize> Columns<D> {
     /// # Safety
     /// As for [`Self::set_positions`].
     #[inline(always)]
-    pub(super) unsafe fn set_velocities<L: Lane>(&self, first: usize, count: usize, v: &[L; D]) {
+    pub(super) unsafe fn set_velocities<P: Points>(&self, first: usize, count: usize, v: &[P; D]) {
         // SAFETY: the rows exist
-        unsafe { set_points::<L, D>(self.velocity.add(first), count, v) }
+        unsafe { set_points::<P, D>(self.velocity.add(first), count, v) }
     }
 
     /// Books hoop rates v_r / r of `count` points from row `first` on, and stretches their hoops by them over `dt`.
@@ -294,19 +296,19 @@ impl<const D: usize> Columns<D> {
     /// # Safety
     /// As for [`Self::set_positions`]; the body is axisymmetric.
     #[inline(always)]
-    pub(super) unsafe fn stretch_hoops<L: Lane>(
+    pub(super) unsafe fn stretch_hoops<P: Points>(
         &self,
         first: usize,
         count: usize,
-        rate: L,
+        rate: P,
         dt: f64,
         rates: &mut [MaybeUninit<f64>],
     ) {
-        let rate = rate.array();
         for q in 0..count {
-            rates[q].write(rate[q]);
+            let rate = rate.lane(q);
+            rates[q].write(rate);
             // SAFETY: the rows exist
-            unsafe { *self.hoop_stretch.add(first + q) *= 1.0 + dt * rate[q] };
+            unsafe { *self.hoop_stretch.add(first + q) *= 1.0 + dt * rate };
         }
     }
 
@@ -364,38 +366,39 @@ impl<const D: usize> Columns<D> {
     }
 }
 
-/// `count` numbers, four at most; zero for those that there are not.
+/// `count` numbers, at most one a lane; zero for those that there are not.
 #[inline(always)]
-unsafe fn numbers<L: Lane>(from: *const f64, count: usize) -> L {
+unsafe fn numbers<P: Points>(from: *const f64, count: usize) -> P {
     // SAFETY: the caller vouches for `count` numbers
     unsafe {
-        if count == 4 {
-            let [numbers] = L::load_points::<1>(from);
+        if count == P::LANES {
+            let [numbers] = P::load_points::<1>(from);
             return numbers;
         }
-        L::load_some(from, count)
+        P::load_some(from, count)
     }
 }
 
-/// The columns of four matrices.
+/// The columns of as many matrices as there are lanes.
 #[inline(always)]
-unsafe fn matrices<L: Lane, const D: usize>(from: *const Matrix<D>) -> [[L; D]; D] {
-    let mut columns = [[L::splat(0.0); D]; D];
-    // SAFETY: the caller vouches for four matrices, which are D² numbers each without gaps
-    let rows = unsafe { std::slice::from_raw_parts(from.cast::<f64>(), 4 * D * D) };
-    L::read_rows(rows, columns.as_flattened_mut());
+unsafe fn matrices<P: Points, const D: usize>(from: *const Matrix<D>) -> [[P; D]; D] {
+    let mut columns = [[P::splat(0.0); D]; D];
+    // SAFETY: the caller vouches for the matrices, which are D² numbers each without gaps
+    let rows = unsafe { std::slice::from_raw_parts(from.cast::<f64>(), P::LANES * D * D) };
+    P::read_rows(rows, columns.as_flattened_mut());
     columns
 }
 
-/// `count` vectors, four at most; the last stands for those that there are not.
+/// `count` vectors, at most one a lane; the last stands for those that there are not, of which groups of more than four have none.
 #[inline(always)]
-unsafe fn points<L: Lane, const D: usize>(from: *const Vector<D>, count: usize) -> [L; D] {
+unsafe fn points<P: Points, const D: usize>(from: *const Vector<D>, count: usize) -> [P; D] {
     // SAFETY: the caller vouches for `count` vectors
     unsafe {
-        if count == 4 {
-            return L::load_points::<D>(from.cast());
+        if count == P::LANES {
+            return P::load_points::<D>(from.cast());
         }
-        L::load_points::<D>(filled_up(from, count).as_ptr().cast())
+        assert!(P::LANES == 4);
+        P::load_points::<D>(filled_up(from, count).as_ptr().cast())
     }
 }
 
@@ -408,16 +411,17 @@ unsafe fn filled_up<const D: usize>(from: *const Vector<D>, count: usize) -> [Ve
     std::array::from_fn(|q| unsafe { *from.add(q.min(count - 1)) })
 }
 
-/// Writes the first `count` of four vectors.
+/// Writes the first `count` of the vectors, one a lane; groups of more than four are whole.
 #[inline(always)]
-unsafe fn set_points<L: Lane, const D: usize>(to: *mut Vector<D>, count: usize, points: &[L; D]) {
+unsafe fn set_points<P: Points, const D: usize>(to: *mut Vector<D>, count: usize, points: &[P; D]) {
     // SAFETY: the caller vouches for `count` vectors
     unsafe {
-        if count == 4 {
-            return L::store_points::<D>(points, to.cast());
+        if count == P::LANES {
+            return P::store_points::<D>(points, to.cast());
         }
+        assert!(P::LANES == 4);
         let mut four = [Vector::<D>::zeros(); 4];
-        L::store_points::<D>(points, four.as_mut_ptr().cast());
+        P::store_points::<D>(points, four.as_mut_ptr().cast());
         // no loop, which would become a call
         *to = four[0];
         if count > 1 {

@@ -6,18 +6,17 @@ use super::{Columns, Pass, Tile};
 use crate::basis::Basis;
 use crate::grid::Node;
 use crate::math::Matrix;
-use crate::real::Portable;
 use crate::solver::lane::Lane;
 use crate::tensor::Tensor;
 
 /// The functions at the middle of a cell, and the nodes of those in which four points are.
-pub(super) struct Centre<const D: usize, const N: usize> {
-    group: Group<D, N>,
+pub(super) struct Centre<L, const D: usize, const N: usize> {
+    group: Group<L, D, N>,
     /// Whether the basis wants any of this.
     pub used: bool,
 }
 
-impl<const D: usize, const N: usize> Centre<D, N> {
+impl<L: Lane, const D: usize, const N: usize> Centre<L, D, N> {
     /// The middle of no cell yet.
     #[inline(always)]
     pub(super) fn new<B: Basis<N>, T>(pass: &Pass<D, B, T>) -> Self {
@@ -25,10 +24,10 @@ impl<const D: usize, const N: usize> Centre<D, N> {
         let used = D > 1 && pass.basis[0].dilation_at_centre();
         if used {
             for a in 0..D {
-                let middle = pass.basis[a].functions(Portable([0.5; 4]));
+                let middle = pass.basis[a].functions(L::splat(0.5));
                 for i in 0..N {
-                    group.weight[a][i].0 = middle.weight[i].0;
-                    group.slope[a][i].0 = middle.slope[i].0.map(|s| s / pass.cell_size);
+                    group.weight[a][i].set(middle.weight[i]);
+                    group.slope[a][i].set(middle.slope[i] / pass.cell_size);
                 }
             }
         }
@@ -37,11 +36,11 @@ impl<const D: usize, const N: usize> Centre<D, N> {
 
     /// The middles of the cells in which these points are.
     #[inline(always)]
-    pub(super) fn set(&mut self, points: &Group<D, N>) {
+    pub(super) fn set(&mut self, points: &Group<L, D, N>) {
         (self.group.row, self.group.node) = (points.row, points.node);
     }
 
-    fn stencil<'a>(&'a self, tile: &'a Tile<D>, q: usize) -> Stencil<'a, D, N> {
+    fn stencil<'a>(&'a self, tile: &'a Tile<D>, q: usize) -> Stencil<'a, L, D, N> {
         Stencil {
             group: &self.group,
             tile,
@@ -54,7 +53,7 @@ impl<const D: usize, const N: usize> Centre<D, N> {
     /// # Safety
     /// As for `gather`; the velocities are those that gave L.
     #[inline(always)]
-    pub(super) unsafe fn dilate<L: Lane>(
+    pub(super) unsafe fn dilate(
         &self,
         columns: &Columns<D>,
         tile: &Tile<D>,
@@ -87,7 +86,7 @@ impl<const D: usize, const N: usize> Centre<D, N> {
     /// # Safety
     /// As for `scatter`.
     #[inline(always)]
-    pub(super) unsafe fn press<L: Lane>(
+    pub(super) unsafe fn press(
         &self,
         columns: &Columns<D>,
         tile: &Tile<D>,
@@ -110,7 +109,7 @@ impl<const D: usize, const N: usize> Centre<D, N> {
                 let pressure = inverse[a] * mean;
                 pull[a] = pull[a] - pressure;
                 for i in 0..N {
-                    gift.slant[a][i] = pressure * L::splat(self.group.slope[a][i].0[q]);
+                    gift.slant[a][i] = pressure * s.splat(&self.group.slope[a][i]);
                 }
             }
             scatter_gift::<L, D, N, false, true>(nodes, nodes, &s, &gift);

@@ -1,15 +1,17 @@
 //! From the grid to points.
 
 use super::dilation::Centre;
-use super::group::{FourRows, Fours, Group, Needs};
-use super::offered::{Asked, Offered, offered};
+use super::group::{Fours, Group, Needs, Rows};
+use super::offered::{Asked, Offered, offered, offered_to_one};
 use super::same::Gifts;
-use super::scatter::{Scattered, scatter_rows};
+use super::scatter::{Scattered, scatter_one, scatter_rows};
+use super::wider::Wider;
 use super::{Columns, Pass, Rates, Reach, Tile, Wanted};
 use crate::basis::Basis;
 use crate::grid::{Block, Node};
-use crate::solver::lane::Lane;
+use crate::solver::lane::{Lane, Points};
 use crate::transfer::Transfer;
+use std::mem::MaybeUninit;
 
 /// What the gathering of one block leaves behind.
 #[derive(Clone, Copy, Debug)]
@@ -56,14 +58,14 @@ pub struct Sources {
     pub second: *const Node,
 }
 
-/// Brings the grid to the given rows (at most [`CHUNK`](super::CHUNK)) of a block.
+/// Brings the grid to the given rows (at most [`CHUNK`](super::CHUNK)) of a block, in groups as [`scatter`](super::scatter()) has them.
 ///
 /// # Safety
 /// See the module header; `sources` are arrays of the grid with all of the tile's nodes (those that the pass does not use may
 /// dangle), and no other thread uses these rows meanwhile.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+pub unsafe fn gather<E: Points, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     tile: &Tile<D>,
@@ -73,84 +75,74 @@ pub unsafe fn gather<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Tr
     sources: &Sources,
     rates: &mut Rates<D>,
 ) -> Gathered {
-    let mut group = Group::<D, N>::new();
+    let mut group = Group::<E::Four, D, N>::new();
     let mut centre = Centre::new(pass);
     let needs = Needs {
         slope: (what.velocity && T::TAYLOR) || (what.rate && !T::MOVING_LEAST_SQUARES),
         affine: (what.velocity && T::AFFINE && !T::TAYLOR)
             || (what.rate && T::MOVING_LEAST_SQUARES),
     };
-    let mut sums = GatheredLanes::<L>::new();
-    let dt = L::splat(pass.dt);
+    let mut sums = GatheredLanes::<E::Four>::new();
+    let affine = T::AFFINE && what.velocity;
     let start = rows.start;
-    for four in Fours(rows) {
-        let FourRows { first, count } = four;
-        let at = first - start;
-        // SAFETY: the rows belong to this block alone (module header)
-        let place = unsafe { columns.places::<L>(first, count) };
-        columns.prefetch::<L>(first, T::AFFINE && what.velocity, false);
-        group.set::<L, B, T>(pass, tile, &place, needs);
-        if centre.used {
-            centre.set(&group);
+    let mut wider = Wider::<E, D, N>::new();
+    let mut fours = Fours(rows);
+    loop {
+        if let Some(rows) = wider.ahead(&fours, centre.used) {
+            // SAFETY: the rows belong to this block alone, and the tile holds every node of their stencils (module header)
+            unsafe {
+                let place = columns.places::<E>(rows.first, E::LANES);
+                if wider.set(pass, tile, &place, needs) {
+                    fours.drop_first(E::LANES);
+                    columns.prefetch::<E>(rows.first, affine, false);
+                    let at = rows.first - start;
+                    let asked = Asked {
+                        columns,
+                        rows,
+                        what,
+                        sources,
+                    };
+                    let gradients = Some((&mut *rates, at));
+                    let offered = offered_to_one(pass, &asked, &wider.group, tile, gradients);
+                    sums.bring(pass, &asked, reach, &place, &offered, rates.hoops_from(at));
+                    continue;
+                }
+            }
         }
-        // where the two are one column, it is read once
-        let mut position = place;
-        if columns.total {
-            // SAFETY: as above
-            position = unsafe { columns.positions::<L>(first, count) };
-        }
-        // SAFETY: the tile holds every node of the stencils, and the rows belong to this block alone (module header)
-        let offered = unsafe {
-            let gradients = Some((&mut *rates, at));
+        let Some(rows) = fours.next() else {
+            return sums.total();
+        };
+        // SAFETY: as above
+        unsafe {
+            let place = columns.places::<E::Four>(rows.first, rows.count);
+            columns.prefetch::<E::Four>(rows.first, affine, false);
+            group.set(pass, tile, &place, needs);
+            if centre.used {
+                centre.set(&group);
+            }
+            let at = rows.first - start;
             let asked = Asked {
                 columns,
-                rows: four,
+                rows,
                 what,
                 sources,
             };
-            offered::<L, D, N, B, T>(pass, &asked, &group, &centre, tile, gradients)
-        };
-        if what.rate && D == 2 && columns.axisymmetric {
-            let rate = offered.radial / position[0];
-            // SAFETY: as above
-            unsafe { columns.stretch_hoops(first, count, rate, pass.dt, rates.hoops_from(at)) };
-        }
-        let mut moving = offered.new;
-        if what.velocity {
-            // SAFETY: as above
-            unsafe { sums.take(pass, columns, four, &offered) };
-        } else if what.position && !T::CHANGE {
-            // the velocity that the point took from these nodes
-            // SAFETY: as above
-            moving = unsafe { columns.velocities::<L>(first, count) };
-        }
-        if what.position {
-            if D > 1 && !group.is_one(count, centre.used) {
-                sums.apart += count;
+            let gradients = Some((&mut *rates, at));
+            let offered = offered(pass, &asked, &group, &centre, tile, gradients);
+            sums.bring(pass, &asked, reach, &place, &offered, rates.hoops_from(at));
+            if what.position && D > 1 && !group.is_one(rows.count, centre.used) {
+                sums.apart += rows.count;
             }
-            let mut x = position;
-            for a in 0..D {
-                position[a] = dt.mul_add(moving[a], position[a]);
-                x[a] = (position[a] - pass.min[a]) * pass.inverse_size;
-            }
-            // SAFETY: as above
-            unsafe { columns.set_positions(first, count, &position) };
-            sums.within &= if columns.total {
-                all_finite(&position)
-            } else {
-                reach.holds_all(&x)
-            };
         }
     }
-    sums.total()
 }
 
 /// Gives the points of one block their new velocities, and adds their new momenta and masses to `second`.
 ///
 /// # Safety
-/// As for [`gather`] and [`scatter`](super::scatter); `second` is none of the sources.
+/// As for [`gather`] and [`scatter`](super::scatter()); `second` is none of the sources.
 #[inline(always)]
-pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+pub unsafe fn exchange<E: Points, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     block: &Block<D>,
@@ -159,39 +151,61 @@ pub unsafe fn exchange<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: 
     second: *mut Node,
 ) -> Gathered {
     let tile = Tile::new(block, edge, N);
-    let mut group = Group::<D, N>::new();
+    let mut group = Group::<E::Four, D, N>::new();
     let centre = Centre::new(pass);
     let mut gifts = Gifts::none();
     let needs = Needs {
         slope: T::TAYLOR,
         affine: T::AFFINE,
     };
-    let mut sums = GatheredLanes::<L>::new();
-    for four in Fours(block.points()) {
-        let FourRows { first, count } = four;
-        // SAFETY: as in `gather`, and as in `scatter`
+    let mut sums = GatheredLanes::<E::Four>::new();
+    let asked_of = |rows| Asked {
+        columns,
+        rows,
+        what: Wanted::VELOCITY,
+        sources,
+    };
+    let what = Scattered::MOMENTUM;
+    let mut wider = Wider::<E, D, N>::new();
+    let mut fours = Fours(block.points());
+    loop {
+        if let Some(rows) = wider.ahead(&fours, centre.used) {
+            // SAFETY: as in `gather`, and as in `scatter`
+            unsafe {
+                let place = columns.places::<E>(rows.first, E::LANES);
+                if wider.set(pass, &tile, &place, needs) {
+                    fours.drop_first(E::LANES);
+                    let asked = asked_of(rows);
+                    let offered = offered_to_one(pass, &asked, &wider.group, &tile, None);
+                    sums.take(pass, &asked, &offered);
+                    let Wider { group, gifts } = &mut wider;
+                    let first = rows.first;
+                    scatter_one(
+                        pass, columns, group, &tile, first, what, second, second, gifts,
+                    );
+                    continue;
+                }
+            }
+        }
+        let Some(rows) = fours.next() else {
+            return sums.total();
+        };
+        // SAFETY: as above
         unsafe {
-            let place = columns.places::<L>(first, count);
-            group.set::<L, B, T>(pass, &tile, &place, needs);
-            let asked = Asked {
-                columns,
-                rows: four,
-                what: Wanted::VELOCITY,
-                sources,
-            };
-            let offered = offered::<L, D, N, B, T>(pass, &asked, &group, &centre, &tile, None);
-            sums.take(pass, columns, four, &offered);
-            let what = Scattered::MOMENTUM;
-            scatter_rows::<L, D, N, B, T>(
-                pass, columns, &group, &centre, &tile, four, what, second, second, &mut gifts,
+            let place = columns.places::<E::Four>(rows.first, rows.count);
+            group.set(pass, &tile, &place, needs);
+            let asked = asked_of(rows);
+            let offered = offered(pass, &asked, &group, &centre, &tile, None);
+            sums.take(pass, &asked, &offered);
+            scatter_rows(
+                pass, columns, &group, &centre, &tile, rows, what, second, second, &mut gifts,
             );
         }
     }
-    sums.total()
 }
 
 #[inline(always)]
-fn all_finite<L: Lane, const D: usize>(position: &[L; D]) -> bool {
+fn all_finite<P: Points, const D: usize>(position: &[P; D]) -> bool {
     let mut finite = true;
     for a in 0..D {
         finite &= position[a].all_within(-f64::MAX, f64::MAX);
@@ -219,23 +233,77 @@ impl<L: Lane> GatheredLanes<L> {
         }
     }
 
-    /// Gives four points their new velocities, and counts them.
+    /// Gives the points of a group what the grid offers them, velocities and positions, and counts them; `hoops` are their hoop
+    /// rates in an axisymmetric scene.
     ///
     /// # Safety
     /// Nobody else uses these rows.
     #[inline(always)]
-    unsafe fn take<const D: usize, B, T: Transfer>(
+    unsafe fn bring<P: Points<Four = L>, const D: usize, B, T: Transfer>(
         &mut self,
         pass: &Pass<D, B, T>,
-        columns: &Columns<D>,
-        rows: FourRows,
-        offered: &Offered<L, D>,
+        asked: &Asked<'_, D>,
+        reach: &Reach<D>,
+        place: &[P; D],
+        offered: &Offered<P, D>,
+        hoops: &mut [MaybeUninit<f64>],
     ) {
-        let FourRows { first, count } = rows;
+        let Asked { columns, what, .. } = asked;
+        let Rows { first, count } = asked.rows;
+        // where the two are one column, it is read once
+        let mut position = *place;
+        if columns.total {
+            // SAFETY: as the caller says
+            position = unsafe { columns.positions::<P>(first, count) };
+        }
+        if what.rate && D == 2 && columns.axisymmetric {
+            let rate = offered.radial / position[0];
+            // SAFETY: as above
+            unsafe { columns.stretch_hoops(first, count, rate, pass.dt, hoops) };
+        }
+        let mut moving = offered.new;
+        if what.velocity {
+            // SAFETY: as above
+            unsafe { self.take(pass, asked, offered) };
+        } else if what.position && !T::CHANGE {
+            // the velocity that the points took from these nodes
+            // SAFETY: as above
+            moving = unsafe { columns.velocities::<P>(first, count) };
+        }
+        if what.position {
+            let dt = P::splat(pass.dt);
+            let mut x = position;
+            for a in 0..D {
+                position[a] = dt.mul_add(moving[a], position[a]);
+                x[a] = (position[a] - pass.min[a]) * pass.inverse_size;
+            }
+            // SAFETY: as above
+            unsafe { columns.set_positions(first, count, &position) };
+            self.within &= if columns.total {
+                all_finite(&position)
+            } else {
+                reach.holds_all(&x)
+            };
+        }
+    }
+
+    /// Gives the points of a group their new velocities, and counts them.
+    ///
+    /// # Safety
+    /// Nobody else uses these rows.
+    #[inline(always)]
+    unsafe fn take<P: Points<Four = L>, const D: usize, B, T: Transfer>(
+        &mut self,
+        pass: &Pass<D, B, T>,
+        asked: &Asked<'_, D>,
+        offered: &Offered<P, D>,
+    ) {
+        let columns = asked.columns;
+        let Rows { first, count } = asked.rows;
         let mut velocity = offered.new;
         if T::CHANGE {
             // SAFETY: as the caller says
-            let old = unsafe { columns.velocities::<L>(first, count) };
+            let old = unsafe { columns.velocities::<P>(first, count) };
             for a in 0..D {
                 let (new, change) = (offered.new[a], offered.change[a]);
                 velocity[a] = pass.transfer.velocity(old[a], new, change);
@@ -248,12 +316,16 @@ impl<L: Lane> GatheredLanes<L> {
         // SAFETY: as the caller says
         let mass = unsafe {
             columns.set_velocities(first, count, &velocity);
-            columns.masses::<L>(first, count)
+            columns.masses::<P>(first, count)
         };
-        self.kinetic = mass.mul_add(square, self.kinetic);
         // `max` would hide a velocity that is not a number
         self.within &= square.all_within(0.0, f64::MAX);
-        self.fastest = self.fastest.max(square);
+        // four after the other: the same sums however many points are taken at once
+        for h in 0..P::LANES / 4 {
+            let square = square.four(h);
+            self.kinetic = mass.four(h).mul_add(square, self.kinetic);
+            self.fastest = self.fastest.max(square);
+        }
     }
 
     #[inline(always)]

@@ -1,72 +1,140 @@
-//! The stencils of four points at once.
+//! The stencils of four or eight points at once.
 
 use super::{Pass, Tile};
 use crate::basis::{Basis, Functions};
-use crate::solver::lane::Lane;
+use crate::real::MOST_LANES;
+use crate::solver::lane::Points;
 use crate::transfer::Transfer;
 use std::ops::Range;
 
-/// Rows of up to four points, one after the other.
+/// Rows of some points, one after the other: of a group, or of what is left of one.
 #[derive(Clone, Copy)]
-pub(super) struct FourRows {
+pub(super) struct Rows {
     pub first: usize,
     pub count: usize,
 }
 
-/// All rows of a range, four at a time. The standard library's steps cost a dozen instructions each.
+/// All rows of a range, four at a time or more. The standard library's steps cost a dozen instructions each.
 pub(super) struct Fours(pub Range<usize>);
 
+impl Fours {
+    /// The next rows, if there are so many; they are not taken.
+    #[inline(always)]
+    pub(super) fn ahead(&self, count: usize) -> Option<Rows> {
+        let Range { start: first, end } = self.0;
+        (first + count <= end).then_some(Rows { first, count })
+    }
+
+    /// Takes so many rows.
+    #[inline(always)]
+    pub(super) fn drop_first(&mut self, count: usize) {
+        self.0.start += count;
+    }
+}
+
 impl Iterator for Fours {
-    type Item = FourRows;
+    type Item = Rows;
 
     #[inline(always)]
-    fn next(&mut self) -> Option<FourRows> {
+    fn next(&mut self) -> Option<Rows> {
         let Range { start: first, end } = self.0;
         if first >= end {
             return None;
         }
         self.0.start = first + 4;
         let count = (end - first).min(4);
-        Some(FourRows { first, count })
+        Some(Rows { first, count })
     }
 }
 
-/// One number of each of four points, to be read one by one or together.
-#[repr(C, align(32))]
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Four(pub [f64; 4]);
+/// One number of each point of a group, to be read one by one or together.
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kept<P>(P);
 
-impl Four {
+impl<P: Points> Kept<P> {
+    /// Zeros.
     #[inline(always)]
-    pub(super) fn set<L: Lane>(&mut self, lane: L) {
-        // SAFETY: four numbers, aligned to 32 bytes
-        unsafe { lane.store(self.0.as_mut_ptr()) }
+    pub(super) fn none() -> Self {
+        Self(P::splat(0.0))
     }
 
     #[inline(always)]
-    pub(super) fn get<L: Lane>(&self) -> L {
+    pub(super) fn set(&mut self, numbers: P) {
+        self.0 = numbers;
+    }
+
+    #[inline(always)]
+    pub(super) fn get(&self) -> P {
+        self.0
+    }
+
+    /// The number of point `q`.
+    #[inline(always)]
+    pub(super) fn of(&self, q: usize) -> f64 {
+        debug_assert!(q < P::LANES);
+        // SAFETY: lanes are so many numbers and nothing else
+        unsafe { *(&raw const self.0).cast::<f64>().add(q) }
+    }
+
+    /// Sets the number of point `q`.
+    #[inline(always)]
+    pub(super) fn set_of(&mut self, q: usize, number: f64) {
+        debug_assert!(q < P::LANES);
         // SAFETY: as above
-        unsafe { L::load(self.0.as_ptr()) }
+        unsafe { *(&raw mut self.0).cast::<f64>().add(q) = number }
     }
 }
 
-/// The stencils of four points, axis by axis.
-pub(super) struct Group<const D: usize, const N: usize> {
+/// The stencils of four or eight points, axis by axis.
+pub(super) struct Group<P, const D: usize, const N: usize> {
     /// Which row of the tile has the first node of each point's stencil.
-    pub row: [u32; 4],
+    pub row: [u32; MOST_LANES],
     /// The first node's place along the last axis of the tile.
-    pub node: [u32; 4],
+    pub node: [u32; MOST_LANES],
     /// N_i.
-    pub weight: [[Four; N]; D],
+    pub weight: [[Kept<P>; N]; D],
     /// dN_i/dx, 1/m.
-    pub slope: [[Four; N]; D],
+    pub slope: [[Kept<P>; N]; D],
     /// N_i (x_i − x) / Σ N_j (x_j − x)², 1/m: the functions whose gathered velocities are the columns of APIC's C. Bases that are
     /// products of functions of one coordinate and complete to first order have no others.
-    pub affine: [[Four; N]; D],
+    pub affine: [[Kept<P>; N]; D],
     /// Σ N_i (x_i − x)², m².
-    pub inertia: [Four; D],
+    pub inertia: [Kept<P>; D],
     /// Whether they all start at the same node, in 2D and 3D.
     pub same: bool,
+}
+
+/// Places in cells along an axis, shifted as the functions want them, and the first nodes of their stencils.
+#[inline(always)]
+fn start<P: Points, const N: usize, B: Basis<N>>(basis: &B, x: P, cells: i32) -> (P, P) {
+    let shifted = x + P::splat(basis.shift());
+    let last = P::splat(f64::from(basis.count(cells) - N as i32));
+    (shifted, shifted.floor().min(last))
+}
+
+/// Whether stencils of points at the given places, m, start at the same node.
+#[inline(always)]
+pub(super) fn start_together<P: Points, const D: usize, const N: usize, B: Basis<N>, T>(
+    pass: &Pass<D, B, T>,
+    position: &[P; D],
+) -> bool {
+    let inverse = P::splat(pass.inverse_size);
+    for a in 0..D {
+        let x = (position[a] - P::splat(pass.min[a])) * inverse;
+        let (_, first) = start(&pass.basis[a], x, pass.cells[a]);
+        let node = first.lane(0);
+        if !first.all_within(node, node) {
+            return false;
+        }
+    }
+    true
+}
+
+/// Whether there are as many points as lanes, which do not need the nodes of the middle of their cells as well.
+#[inline(always)]
+pub(super) fn is_whole<P: Points>(count: usize, middle: bool) -> bool {
+    count == P::LANES && !middle
 }
 
 /// Which of a group's functions somebody needs.
@@ -76,80 +144,72 @@ pub(super) struct Needs {
     pub affine: bool,
 }
 
-impl<const D: usize, const N: usize> Group<D, N> {
+impl<P: Points, const D: usize, const N: usize> Group<P, D, N> {
     pub(super) fn new() -> Self {
         Self {
-            row: [0; 4],
-            node: [0; 4],
-            weight: [[Four::default(); N]; D],
-            slope: [[Four::default(); N]; D],
-            affine: [[Four::default(); N]; D],
-            inertia: [Four::default(); D],
+            row: [0; MOST_LANES],
+            node: [0; MOST_LANES],
+            weight: [[Kept::none(); N]; D],
+            slope: [[Kept::none(); N]; D],
+            affine: [[Kept::none(); N]; D],
+            inertia: [Kept::none(); D],
             same: false,
         }
     }
 
-    /// Whether these are four points, which do not need the nodes of the middle of their cells as well.
-    #[inline(always)]
-    pub(super) fn is_whole(&self, count: usize, middle: bool) -> bool {
-        count == 4 && !middle
-    }
-
-    /// Whether these are four points that can be taken as one: they have the same nodes.
+    /// Whether these are as many points as there are lanes, and can be taken as one: they have the same nodes, and do not need those
+    /// of the middle of their cells as well.
     #[inline(always)]
     pub(super) fn is_one(&self, count: usize, middle: bool) -> bool {
-        self.same && self.is_whole(count, middle)
+        self.same && is_whole::<P>(count, middle)
     }
 
     /// The stencils of points at the given places, m.
     #[inline(always)]
-    pub(super) fn set<L: Lane, B: Basis<N>, T: Transfer>(
+    pub(super) fn set<B: Basis<N>, T: Transfer>(
         &mut self,
         pass: &Pass<D, B, T>,
         tile: &Tile<D>,
-        position: &[L; D],
+        position: &[P; D],
         needs: Needs,
     ) {
-        let inverse = L::splat(pass.inverse_size);
-        let mut row = L::splat(0.0);
-        let mut node = L::splat(0.0);
+        let inverse = P::splat(pass.inverse_size);
+        let mut row = P::splat(0.0);
+        let mut node = P::splat(0.0);
         for a in 0..D {
             let basis = &pass.basis[a];
             let cells = pass.cells[a];
-            let x = (position[a] - L::splat(pass.min[a])) * inverse;
-            let shifted = x + L::splat(basis.shift());
-            let first = shifted
-                .floor()
-                .min(L::splat(f64::from(basis.count(cells) - N as i32)));
+            let x = (position[a] - P::splat(pass.min[a])) * inverse;
+            let (shifted, first) = start(basis, x, cells);
             let (low, high) = basis.alike(cells);
             if tile.alike(a, low, high) || first.all_within(f64::from(low), f64::from(high)) {
                 let functions = basis.functions(shifted - first);
                 let sizes = (pass.cell_size, pass.inverse_size);
-                self.set_axis::<L, B>(a, &functions, sizes, needs);
+                self.set_axis::<B>(a, &functions, sizes, needs);
             } else {
-                self.set_one_by_one(a, basis, x.array(), cells, pass.cell_size, needs);
+                self.set_one_by_one(a, basis, &Kept(x), cells, pass.cell_size, needs);
             }
             let local = tile.local(a, first);
             if a + 1 == D {
                 node = local;
             } else {
-                row = row.mul_add(L::splat(tile.width as f64), local);
+                row = row.mul_add(P::splat(tile.width as f64), local);
             }
         }
         if D > 1 {
-            let number = row.mul_add(L::splat(tile.width as f64), node);
+            let number = row.mul_add(P::splat(tile.width as f64), node);
             let first = number.lane(0);
             self.same = number.all_within(first, first);
         }
-        self.row = row.whole();
-        self.node = node.whole();
+        row.whole(&mut self.row);
+        node.whole(&mut self.node);
     }
 
     #[inline(always)]
-    fn set_axis<L: Lane, B: Basis<N>>(
+    fn set_axis<B: Basis<N>>(
         &mut self,
         a: usize,
-        functions: &Functions<L, N>,
+        functions: &Functions<P, N>,
         (cell_size, inverse_size): (f64, f64),
         needs: Needs,
     ) {
@@ -157,7 +217,7 @@ impl<const D: usize, const N: usize> Group<D, N> {
             self.weight[a][i].set(functions.weight[i]);
         }
         if needs.slope || (needs.affine && B::AFFINE_IS_SLOPE) {
-            let inverse = L::splat(inverse_size);
+            let inverse = P::splat(inverse_size);
             for i in 0..N {
                 let slope = functions.slope[i] * inverse;
                 if needs.slope {
@@ -175,16 +235,16 @@ impl<const D: usize, const N: usize> Group<D, N> {
             }
             let (inertia, inverse) = match B::INERTIA {
                 Some(inertia) => (
-                    L::splat(inertia * cell_size * cell_size),
-                    L::splat(1.0 / (inertia * cell_size)),
+                    P::splat(inertia * cell_size * cell_size),
+                    P::splat(1.0 / (inertia * cell_size)),
                 ),
                 None => {
-                    let mut inertia = L::splat(0.0);
+                    let mut inertia = P::splat(0.0);
                     for i in 0..N {
                         inertia = moment[i].mul_add(functions.arm[i], inertia);
                     }
                     let scaled = inertia * cell_size;
-                    (scaled * cell_size, L::splat(1.0) / scaled)
+                    (scaled * cell_size, P::splat(1.0) / scaled)
                 }
             };
             self.inertia[a].set(inertia);
@@ -202,13 +262,13 @@ impl<const D: usize, const N: usize> Group<D, N> {
         &mut self,
         a: usize,
         basis: &B,
-        x: [f64; 4],
+        x: &Kept<P>,
         cells: i32,
         cell_size: f64,
         needs: Needs,
     ) {
-        for q in 0..4 {
-            let axis = basis.axis(x[q], cells);
+        for q in 0..P::LANES {
+            let axis = basis.axis(x.of(q), cells);
             let mut inertia = 0.0;
             for i in 0..N {
                 inertia += axis.weight[i] * axis.arm[i] * axis.arm[i];
@@ -217,19 +277,20 @@ impl<const D: usize, const N: usize> Group<D, N> {
             let plain = B::AFFINE_IS_SLOPE || inertia <= f64::MIN_POSITIVE;
             for i in 0..N {
                 let slope = axis.slope[i] / cell_size;
-                self.weight[a][i].0[q] = axis.weight[i];
+                self.weight[a][i].set_of(q, axis.weight[i]);
                 if needs.slope {
-                    self.slope[a][i].0[q] = slope;
+                    self.slope[a][i].set_of(q, slope);
                 }
                 if needs.affine {
-                    self.affine[a][i].0[q] = if plain {
+                    let affine = if plain {
                         slope
                     } else {
                         axis.weight[i] * axis.arm[i] / (inertia * cell_size)
                     };
+                    self.affine[a][i].set_of(q, affine);
                 }
             }
-            self.inertia[a].0[q] = inertia * cell_size * cell_size;
+            self.inertia[a].set_of(q, inertia * cell_size * cell_size);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The innermost loops in 1D. A node holds one component and its mass there, too little to fill a lane: so four points are
 //! taken together, and what they give to their nodes is added in their order.
 
-use super::group::{Four, FourRows, Group};
+use super::group::{Group, Kept, Rows};
 use super::same::more;
 use super::scatter::Scattered;
 use super::{Columns, Pass, Tile};
@@ -11,7 +11,7 @@ use crate::transfer::Transfer;
 
 /// A function of four points at each of their nodes.
 #[inline(always)]
-fn lanes<L: Lane, const N: usize>(numbers: &[Four; N]) -> [L; N] {
+fn lanes<L: Lane, const N: usize>(numbers: &[Kept<L>; N]) -> [L; N] {
     let mut lanes = [L::splat(0.0); N];
     for i in 0..N {
         lanes[i] = numbers[i].get();
@@ -21,9 +21,9 @@ fn lanes<L: Lane, const N: usize>(numbers: &[Four; N]) -> [L; N] {
 
 /// The first nodes of the stencils of four points, for an array that starts at `nodes`.
 #[inline(always)]
-fn starts<const D: usize, const N: usize>(
+fn starts<L: Lane, const D: usize, const N: usize>(
     nodes: *mut Node,
-    group: &Group<D, N>,
+    group: &Group<L, D, N>,
     tile: &Tile<D>,
 ) -> [*mut Node; 4] {
     // SAFETY: every tile has a first row
@@ -52,9 +52,9 @@ fn after(starts: &[*mut Node; 4], k: usize) -> [*mut f64; 4] {
 #[inline(always)]
 pub(super) unsafe fn gather_four<L: Lane, const D: usize, const N: usize, const M: usize>(
     nodes: *const Node,
-    group: &Group<D, N>,
+    group: &Group<L, D, N>,
     tile: &Tile<D>,
-    g: [&[[Four; N]; D]; M],
+    g: [&[[Kept<L>; N]; D]; M],
     absent: bool,
 ) -> ([L; D], [[[L; D]; D]; M]) {
     let zero = L::splat(0.0);
@@ -97,14 +97,14 @@ pub(super) unsafe fn gather_four<L: Lane, const D: usize, const N: usize, const 
 pub(super) unsafe fn scatter_four<L: Lane, const D: usize, const N: usize, B, T: Transfer>(
     pass: &Pass<D, B, T>,
     columns: &Columns<D>,
-    group: &Group<D, N>,
+    group: &Group<L, D, N>,
     tile: &Tile<D>,
-    rows: FourRows,
+    rows: Rows,
     what: Scattered,
     main: *mut Node,
     force: *mut Node,
 ) {
-    let FourRows { first, count } = rows;
+    let Rows { first, count } = rows;
     let zero = L::splat(0.0);
     let (mut mass, mut momentum, mut moment, mut pull) = (zero, zero, zero, zero);
     // SAFETY: these rows belong to this block alone (module header of `stencil`)

@@ -1,8 +1,9 @@
 //! The hot loops: from the points of one block to the grid nodes around them and back.
 //!
 //! Weights factorise axis by axis, so a stencil of N^D nodes costs a few operations a node. Points come four at a time, cell by cell:
-//! four that have the same nodes are taken as one (`same`, in 1D `line`), others one after the other (`nodes`). All loops are generic over
-//! [`Lane`](super::lane::Lane), once with wide instructions and once without; `solver::plain` says what they mean.
+//! four that have the same nodes are taken as one (`same`, in 1D `line`), others one after the other (`nodes`). Where registers hold
+//! eight numbers, eight points in 3D are taken as one too (`wider`). All loops are generic over lanes
+//! ([`Points`](super::lane::Points), [`Lane`](super::lane::Lane)), compiled for every set of instructions; `solver::plain` says what they mean.
 //!
 //! Everything `unsafe` here rests on three facts. A point's stencil starts at most one node outside its block (checked by
 //! [`gather`] whenever a point moves, and by the sort, which refuses points that are not finite or outside the grid; in the total
@@ -25,6 +26,7 @@ mod same;
 mod scatter;
 mod tile;
 mod wanted;
+mod wider;
 pub use columns::Columns;
 pub use cpdi::Domains;
 pub use gather::{Gathered, Sources, exchange, gather};

@@ -1,40 +1,48 @@
 //! From one point to the nodes of its stencil and back: the innermost loops.
 
 use super::Tile;
-use super::group::{Four, Group};
+use super::group::{Group, Kept};
 use crate::grid::Node;
-use crate::solver::lane::Lane;
+use crate::solver::lane::{Lane, Points};
 
 /// The stencil of one point of a group, with the functions along the last axis, which every row of nodes needs.
-pub(super) struct Stencil<'a, const D: usize, const N: usize> {
-    pub group: &'a Group<D, N>,
+pub(super) struct Stencil<'a, P, const D: usize, const N: usize> {
+    pub group: &'a Group<P, D, N>,
     pub tile: &'a Tile<D>,
-    /// Which of the four points.
+    /// Which of its points.
     pub q: usize,
 }
 
-impl<const D: usize, const N: usize> Stencil<'_, D, N> {
+impl<L: Lane, const D: usize, const N: usize> Stencil<'_, L, D, N> {
     /// N_i along axis `a`, in all parts of a lane.
     #[inline(always)]
-    fn weight<L: Lane>(&self, a: usize, i: usize) -> L {
-        L::splat(self.group.weight[a][i].0[self.q])
+    fn weight(&self, a: usize, i: usize) -> L {
+        self.splat(&self.group.weight[a][i])
     }
 
     #[inline(always)]
-    fn weights<L: Lane>(&self, a: usize) -> [L; N] {
+    fn weights(&self, a: usize) -> [L; N] {
         self.all(&self.group.weight[a])
+    }
+
+    /// The number of this point, in all parts of a lane.
+    #[inline(always)]
+    pub(super) fn splat(&self, numbers: &Kept<L>) -> L {
+        L::splat(numbers.of(self.q))
     }
 
     /// The numbers of this point, each in all parts of a lane.
     #[inline(always)]
-    fn all<L: Lane>(&self, numbers: &[Four; N]) -> [L; N] {
+    fn all(&self, numbers: &[Kept<L>; N]) -> [L; N] {
         let mut lanes = [L::splat(0.0); N];
         for i in 0..N {
-            lanes[i] = L::splat(numbers[i].0[self.q]);
+            lanes[i] = self.splat(&numbers[i]);
         }
         lanes
     }
+}
 
+impl<P: Points, const D: usize, const N: usize> Stencil<'_, P, D, N> {
     /// The first node of the stencil's row (i, j), for an array that starts at `nodes`.
     #[inline(always)]
     pub(super) unsafe fn row(&self, nodes: *mut Node, i: usize, j: usize) -> *mut f64 {
@@ -73,7 +81,7 @@ pub(super) unsafe fn scatter_gift<
 >(
     of_value: *mut Node,
     of_slant: *mut Node,
-    s: &Stencil<'_, D, N>,
+    s: &Stencil<'_, L, D, N>,
     gift: &Gift<L, D, N>,
 ) {
     let last: [L; N] = s.weights(D - 1);
@@ -189,8 +197,8 @@ unsafe fn add_both<L: Lane>(row: *mut f64, k: usize, a: L, b: L, c: L, d: L) {
 #[inline(always)]
 pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, const M: usize>(
     nodes: *const Node,
-    s: &Stencil<'_, D, N>,
-    g: [&[[Four; N]; D]; M],
+    s: &Stencil<'_, L, D, N>,
+    g: [&[[Kept<L>; N]; D]; M],
 ) -> (L, [[L; D]; M]) {
     let nodes = nodes.cast_mut();
     let zero = L::splat(0.0);
@@ -209,7 +217,7 @@ pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, cons
                 let wi: L = s.weight(0, i);
                 sum = wi.mul_add(value, sum);
                 for m in 0..M {
-                    let gi = L::splat(g[m][0][i].0[s.q]);
+                    let gi = s.splat(&g[m][0][i]);
                     gradient[m][0] = gi.mul_add(value, gradient[m][0]);
                     gradient[m][1] = wi.mul_add(change[m], gradient[m][1]);
                 }
@@ -225,7 +233,7 @@ pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, cons
                     let wj: L = s.weight(1, j);
                     value = wj.mul_add(v, value);
                     for m in 0..M {
-                        let gj = L::splat(g[m][1][j].0[s.q]);
+                        let gj = s.splat(&g[m][1][j]);
                         dy[m] = gj.mul_add(v, dy[m]);
                         dz[m] = wj.mul_add(c[m], dz[m]);
                     }
@@ -233,7 +241,7 @@ pub(super) unsafe fn gather_linear<L: Lane, const D: usize, const N: usize, cons
                 let wi: L = s.weight(0, i);
                 sum = wi.mul_add(value, sum);
                 for m in 0..M {
-                    let gi = L::splat(g[m][0][i].0[s.q]);
+                    let gi = s.splat(&g[m][0][i]);
                     gradient[m][0] = gi.mul_add(value, gradient[m][0]);
                     gradient[m][1] = wi.mul_add(dy[m], gradient[m][1]);
                     gradient[m][2] = wi.mul_add(dz[m], gradient[m][2]);

@@ -1,59 +1,81 @@
-//! What the grid offers to four points: to all at once where that pays, else to one after the other.
+//! What the grid offers to a group of points: to all at once where that pays, else to one after the other.
 
 use super::apart::gather_apart;
 use super::dilation::Centre;
-use super::group::{Four, FourRows, Group};
+use super::group::{Group, Kept, Rows, is_whole};
 use super::line::gather_four;
 use super::nodes::{Stencil, gather_linear, without_absent};
 use super::same::gather_same;
 use super::{Columns, Pass, Rates, Sources, Tile, Wanted};
 use crate::basis::Basis;
 use crate::grid::Node;
-use crate::solver::lane::Lane;
+use crate::solver::lane::{Lane, Points};
 use crate::transfer::Transfer;
 
-/// Velocities that the grid offers to four points, m/s.
-pub(super) struct Offered<L, const D: usize> {
+/// Velocities that the grid offers to a group of points, m/s.
+pub(super) struct Offered<P, const D: usize> {
     /// At the end of the step.
-    pub new: [L; D],
+    pub new: [P; D],
     /// Their change over the step.
-    pub change: [L; D],
+    pub change: [P; D],
     /// Along r, of those that strain the points.
-    pub radial: L,
+    pub radial: P,
 }
 
 /// What a pass wants of the nodes, and of whom.
 pub(super) struct Asked<'a, const D: usize> {
     pub columns: &'a Columns<D>,
-    pub rows: FourRows,
+    pub rows: Rows,
     pub what: Wanted,
     pub sources: &'a Sources,
 }
 
-/// What the grid offers to four points; affine fields are stored, gradients booked from a place of `gradients` on.
+/// What the grid offers to a group of points that have the same nodes; affine fields are stored, gradients booked from a place of
+/// `gradients` on.
 ///
 /// # Safety
-/// As for [`gather`](super::gather()); the functions of the points are those in `group`.
+/// As for [`gather`](super::gather()); the functions of the points are those in `group`, which is taken as one.
+#[inline(always)]
+pub(super) unsafe fn offered_to_one<
+    P: Points,
+    const D: usize,
+    const N: usize,
+    B: Basis<N>,
+    T: Transfer,
+>(
+    pass: &Pass<D, B, T>,
+    asked: &Asked<'_, D>,
+    group: &Group<P, D, N>,
+    tile: &Tile<D>,
+    mut gradients: Option<(&mut Rates<D>, usize)>,
+) -> Offered<P, D> {
+    let same = Same { asked, group, tile };
+    // SAFETY: as the caller says
+    unsafe { same.take::<B, T>(pass, &mut gradients) }.offered()
+}
+
+/// What the grid offers to at most four points, as [`offered_to_one`] says.
+///
+/// # Safety
+/// As there, but points may be fewer and have any nodes.
 #[inline(always)]
 pub(super) unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<D, B, T>,
     asked: &Asked<'_, D>,
-    group: &Group<D, N>,
-    centre: &Centre<D, N>,
+    group: &Group<L, D, N>,
+    centre: &Centre<L, D, N>,
     tile: &Tile<D>,
     mut gradients: Option<(&mut Rates<D>, usize)>,
 ) -> Offered<L, D> {
-    let blend = pass.transfer.ratio() < 1.0;
     let count = asked.rows.count;
-    if D == 1 || group.is_whole(count, centre.used) && (D == 2 || group.same) {
-        let all = All { asked, group, tile };
+    if D > 1 && group.is_one(count, centre.used) {
         // SAFETY: as the caller says
-        let taken = unsafe { all.take::<L, B, T>(blend, &mut gradients) };
-        return Offered {
-            new: taken.new,
-            change: taken.change,
-            radial: taken.straining[0],
-        };
+        return unsafe { offered_to_one(pass, asked, group, tile, gradients) };
+    }
+    if D == 1 || D == 2 && is_whole::<L>(count, centre.used) {
+        let any = Any { asked, group, tile };
+        // SAFETY: as the caller says
+        return unsafe { any.take::<B, T>(pass, &mut gradients) }.offered();
     }
     let zero = L::splat(0.0);
     let (mut new, mut change, mut straining) = ([zero; 4], [zero; 4], [zero; 4]);
@@ -61,7 +83,7 @@ pub(super) unsafe fn offered<L: Lane, const D: usize, const N: usize, B: Basis<N
         let s = Stencil { group, tile, q };
         let one = One { asked, s, centre };
         // SAFETY: as the caller says
-        let taken = unsafe { one.take::<L, B, T>(blend, &mut gradients) };
+        let taken = unsafe { one.take::<B, T>(pass, &mut gradients) };
         (new[q], change[q], straining[q]) = (taken.new, taken.change, taken.straining);
     }
     let [radial] = L::turn::<1>(&straining);
@@ -82,47 +104,59 @@ struct Taken<V> {
     straining: V,
 }
 
+impl<P: Points, const D: usize> Taken<[P; D]> {
+    #[inline(always)]
+    fn offered(self) -> Offered<P, D> {
+        Offered {
+            new: self.new,
+            change: self.change,
+            radial: self.straining[0],
+        }
+    }
+}
+
 /// Where gradients go, and from which place on.
 type Gradients<'a, 'b, const D: usize> = &'a mut Option<(&'b mut Rates<D>, usize)>;
 
 /// Who takes from the grid at once: all points of a group, or one of them.
-trait Taker<const D: usize, const N: usize> {
+trait Taker<P: Points, const D: usize, const N: usize> {
     /// Their velocity.
-    type Velocity<L: Lane>: Copy;
+    type Velocity: Copy;
     /// The columns of a gradient of theirs.
-    type Columns<L: Lane>: Copy;
+    type Columns: Copy;
 
     fn asked(&self) -> &Asked<'_, D>;
 
-    fn group(&self) -> &Group<D, N>;
+    fn group(&self) -> &Group<P, D, N>;
 
-    fn at_rest<L: Lane>() -> Self::Velocity<L>;
+    fn at_rest() -> Self::Velocity;
 
     /// What [`gather_same`] says.
-    unsafe fn gathered<L: Lane, B: Basis<N>, const M: usize>(
+    unsafe fn gathered<B: Basis<N>, const M: usize>(
         &self,
         nodes: *const Node,
-        g: [&[[Four; N]; D]; M],
-    ) -> (Self::Velocity<L>, [Self::Columns<L>; M]);
+        g: [&[[Kept<P>; N]; D]; M],
+    ) -> (Self::Velocity, [Self::Columns; M]);
 
     /// Books a gradient of `velocities`.
-    unsafe fn book<L: Lane>(
+    unsafe fn book(
         &self,
         gradients: Gradients<'_, '_, D>,
         velocities: *const Node,
-        gradient: Self::Columns<L>,
+        gradient: Self::Columns,
     );
 
     /// Stores affine fields.
-    unsafe fn set_affine<L: Lane>(&self, field: &Self::Columns<L>);
+    unsafe fn set_affine(&self, field: &Self::Columns);
 
     /// Takes what is asked for.
     #[inline(always)]
-    unsafe fn take<L: Lane, B: Basis<N>, T: Transfer>(
+    unsafe fn take<B: Basis<N>, T: Transfer>(
         &self,
-        blend: bool,
+        pass: &Pass<D, B, T>,
         gradients: Gradients<'_, '_, D>,
-    ) -> Taken<Self::Velocity<L>> {
+    ) -> Taken<Self::Velocity> {
+        let blend = pass.transfer.ratio() < 1.0;
         let (what, sources) = (self.asked().what, self.asked().sources);
         let group = self.group();
         // whose gathered velocities are the columns of L, and of C
@@ -137,19 +171,19 @@ trait Taker<const D: usize, const N: usize> {
             &group.affine
         };
         let alike = T::MOVING_LEAST_SQUARES || T::TAYLOR;
-        let rest = Self::at_rest::<L>();
+        let rest = Self::at_rest();
         let (mut new, mut change, mut straining) = (rest, rest, rest);
         // SAFETY: as the caller says
         unsafe {
             if what.rate && what.same {
                 let main = sources.main;
                 if what.velocity && T::AFFINE && !alike {
-                    let (value, [gradient, field]) = self.gathered::<L, B, 2>(main, [slope, own]);
+                    let (value, [gradient, field]) = self.gathered::<B, 2>(main, [slope, own]);
                     self.book(gradients, main, gradient);
                     self.set_affine(&field);
                     new = value;
                 } else {
-                    let (value, [gradient]) = self.gathered::<L, B, 1>(main, [slope]);
+                    let (value, [gradient]) = self.gathered::<B, 1>(main, [slope]);
                     self.book(gradients, main, gradient);
                     if what.velocity && T::AFFINE {
                         self.set_affine(&gradient);
@@ -160,20 +194,20 @@ trait Taker<const D: usize, const N: usize> {
             } else {
                 if what.rate {
                     let second = sources.second;
-                    let (value, [gradient]) = self.gathered::<L, B, 1>(second, [slope]);
+                    let (value, [gradient]) = self.gathered::<B, 1>(second, [slope]);
                     self.book(gradients, second, gradient);
                     straining = value;
                 }
                 if what.velocity && T::AFFINE {
-                    let (value, [field]) = self.gathered::<L, B, 1>(sources.main, [own]);
+                    let (value, [field]) = self.gathered::<B, 1>(sources.main, [own]);
                     self.set_affine(&field);
                     new = value;
                 } else if (what.position && T::CHANGE) || (what.velocity && (blend || !T::CHANGE)) {
-                    new = self.gathered::<L, B, 0>(sources.main, []).0;
+                    new = self.gathered::<B, 0>(sources.main, []).0;
                 }
             }
             if what.velocity && T::CHANGE {
-                change = self.gathered::<L, B, 0>(sources.change, []).0;
+                change = self.gathered::<B, 0>(sources.change, []).0;
             }
         }
         Taken {
@@ -184,16 +218,34 @@ trait Taker<const D: usize, const N: usize> {
     }
 }
 
-/// All points of a group.
-struct All<'a, const D: usize, const N: usize> {
+/// Books the gradients of all points of a group.
+#[inline(always)]
+fn book_all<P: Points, const D: usize>(gradients: Gradients<'_, '_, D>, gradient: &[[P; D]; D]) {
+    if let Some((rates, at)) = gradients {
+        rates.set_all(*at, gradient);
+    }
+}
+
+impl<const D: usize> Asked<'_, D> {
+    /// Stores the affine fields of all points of a group.
+    #[inline(always)]
+    unsafe fn set_affines<P: Points>(&self, field: &[[P; D]; D]) {
+        let Rows { first, count } = self.rows;
+        // SAFETY: as the caller says
+        unsafe { self.columns.set_affines(first, count, field) }
+    }
+}
+
+/// All points of a group, which have the same nodes.
+struct Same<'a, P, const D: usize, const N: usize> {
     asked: &'a Asked<'a, D>,
-    group: &'a Group<D, N>,
+    group: &'a Group<P, D, N>,
     tile: &'a Tile<D>,
 }
 
-impl<const D: usize, const N: usize> Taker<D, N> for All<'_, D, N> {
-    type Velocity<L: Lane> = [L; D];
-    type Columns<L: Lane> = [[L; D]; D];
+impl<P: Points, const D: usize, const N: usize> Taker<P, D, N> for Same<'_, P, D, N> {
+    type Velocity = [P; D];
+    type Columns = [[P; D]; D];
 
     #[inline(always)]
     fn asked(&self) -> &Asked<'_, D> {
@@ -201,64 +253,102 @@ impl<const D: usize, const N: usize> Taker<D, N> for All<'_, D, N> {
     }
 
     #[inline(always)]
-    fn group(&self) -> &Group<D, N> {
+    fn group(&self) -> &Group<P, D, N> {
         self.group
     }
 
     #[inline(always)]
-    fn at_rest<L: Lane>() -> [L; D] {
+    fn at_rest() -> [P; D] {
+        [P::splat(0.0); D]
+    }
+
+    #[inline(always)]
+    unsafe fn gathered<B: Basis<N>, const M: usize>(
+        &self,
+        nodes: *const Node,
+        g: [&[[Kept<P>; N]; D]; M],
+    ) -> ([P; D], [[[P; D]; D]; M]) {
+        // SAFETY: as the caller says
+        unsafe { gather_same::<P, D, N, B, M>(nodes, self.group, self.tile, g) }
+    }
+
+    #[inline(always)]
+    unsafe fn book(&self, gradients: Gradients<'_, '_, D>, _: *const Node, gradient: [[P; D]; D]) {
+        book_all(gradients, &gradient);
+    }
+
+    #[inline(always)]
+    unsafe fn set_affine(&self, field: &[[P; D]; D]) {
+        // SAFETY: as the caller says
+        unsafe { self.asked.set_affines(field) }
+    }
+}
+
+/// All points of a group, whatever their nodes: in 1D, and in 2D as many as there are lanes.
+struct Any<'a, L, const D: usize, const N: usize> {
+    asked: &'a Asked<'a, D>,
+    group: &'a Group<L, D, N>,
+    tile: &'a Tile<D>,
+}
+
+impl<L: Lane, const D: usize, const N: usize> Taker<L, D, N> for Any<'_, L, D, N> {
+    type Velocity = [L; D];
+    type Columns = [[L; D]; D];
+
+    #[inline(always)]
+    fn asked(&self) -> &Asked<'_, D> {
+        self.asked
+    }
+
+    #[inline(always)]
+    fn group(&self) -> &Group<L, D, N> {
+        self.group
+    }
+
+    #[inline(always)]
+    fn at_rest() -> [L; D] {
         [L::splat(0.0); D]
     }
 
     #[inline(always)]
-    unsafe fn gathered<L: Lane, B: Basis<N>, const M: usize>(
+    unsafe fn gathered<B: Basis<N>, const M: usize>(
         &self,
         nodes: *const Node,
-        g: [&[[Four; N]; D]; M],
+        g: [&[[Kept<L>; N]; D]; M],
     ) -> ([L; D], [[[L; D]; D]; M]) {
         let (group, tile) = (self.group, self.tile);
         // SAFETY: as the caller says
         unsafe {
             if D == 1 {
                 gather_four::<L, D, N, M>(nodes, group, tile, g, B::SLOPES_JUMP)
-            } else if D == 2 && !group.same {
-                gather_apart::<L, D, N, B, M>(nodes, group, tile, g)
             } else {
-                gather_same::<L, D, N, B, M>(nodes, group, tile, g)
+                gather_apart::<L, D, N, B, M>(nodes, group, tile, g)
             }
         }
     }
 
     #[inline(always)]
-    unsafe fn book<L: Lane>(
-        &self,
-        gradients: Gradients<'_, '_, D>,
-        _: *const Node,
-        gradient: [[L; D]; D],
-    ) {
-        if let Some((rates, at)) = gradients {
-            rates.set_four(*at, &gradient);
-        }
+    unsafe fn book(&self, gradients: Gradients<'_, '_, D>, _: *const Node, gradient: [[L; D]; D]) {
+        book_all(gradients, &gradient);
     }
 
     #[inline(always)]
-    unsafe fn set_affine<L: Lane>(&self, field: &[[L; D]; D]) {
-        let FourRows { first, count } = self.asked.rows;
+    unsafe fn set_affine(&self, field: &[[L; D]; D]) {
         // SAFETY: as the caller says
-        unsafe { self.asked.columns.set_affines(first, count, field) }
+        unsafe { self.asked.set_affines(field) }
     }
 }
 
 /// One point of a group, in 2D and 3D.
-struct One<'a, const D: usize, const N: usize> {
+struct One<'a, L, const D: usize, const N: usize> {
     asked: &'a Asked<'a, D>,
-    s: Stencil<'a, D, N>,
-    centre: &'a Centre<D, N>,
+    s: Stencil<'a, L, D, N>,
+    centre: &'a Centre<L, D, N>,
 }
 
-impl<const D: usize, const N: usize> Taker<D, N> for One<'_, D, N> {
-    type Velocity<L: Lane> = L;
-    type Columns<L: Lane> = [L; D];
+impl<L: Lane, const D: usize, const N: usize> Taker<L, D, N> for One<'_, L, D, N> {
+    type Velocity = L;
+    type Columns = [L; D];
 
     #[inline(always)]
     fn asked(&self) -> &Asked<'_, D> {
@@ -266,21 +356,21 @@ impl<const D: usize, const N: usize> Taker<D, N> for One<'_, D, N> {
     }
 
     #[inline(always)]
-    fn group(&self) -> &Group<D, N> {
+    fn group(&self) -> &Group<L, D, N> {
         self.s.group
     }
 
     #[inline(always)]
-    fn at_rest<L: Lane>() -> L {
+    fn at_rest() -> L {
         L::splat(0.0)
     }
 
     /// [`gather_linear`]; gradients without what nodes without mass would add to them.
     #[inline(always)]
-    unsafe fn gathered<L: Lane, B: Basis<N>, const M: usize>(
+    unsafe fn gathered<B: Basis<N>, const M: usize>(
         &self,
         nodes: *const Node,
-        g: [&[[Four; N]; D]; M],
+        g: [&[[Kept<L>; N]; D]; M],
     ) -> (L, [[L; D]; M]) {
         // SAFETY: as the caller says
         let (value, mut gradients) = unsafe { gather_linear::<L, D, N, M>(nodes, &self.s, g) };
@@ -294,7 +384,7 @@ impl<const D: usize, const N: usize> Taker<D, N> for One<'_, D, N> {
 
     /// Books a gradient, with the change of volume that its basis wants.
     #[inline(always)]
-    unsafe fn book<L: Lane>(
+    unsafe fn book(
         &self,
         gradients: Gradients<'_, '_, D>,
         velocities: *const Node,
@@ -314,7 +404,7 @@ impl<const D: usize, const N: usize> Taker<D, N> for One<'_, D, N> {
     }
 
     #[inline(always)]
-    unsafe fn set_affine<L: Lane>(&self, field: &[L; D]) {
+    unsafe fn set_affine(&self, field: &[L; D]) {
         let p = self.asked.rows.first + self.s.q;
         // SAFETY: as the caller says
         unsafe { self.asked.columns.set_affine(p, field) }

@@ -2,7 +2,7 @@
 
 use super::CHUNK;
 use crate::material::Rate;
-use crate::solver::lane::Lane;
+use crate::solver::lane::{Lane, Points};
 use std::mem::MaybeUninit;
 
 /// Velocity gradients of up to [`CHUNK`] points, set by the kernel that gathers them.
@@ -45,21 +45,18 @@ impl<const D: usize> Rates<D> {
         unsafe { &mut *(set as *mut [Rate<D>]) }
     }
 
-    /// Sets the gradients of four points, given their columns.
+    /// Sets the gradients of as many points as there are lanes, given their columns.
     #[inline(always)]
-    pub(super) fn set_four<L: Lane>(&mut self, point: usize, columns: &[[L; D]; D]) {
-        let four = &mut self.gradient[point..point + 4];
-        let mut to = [four[0].as_mut_ptr().cast::<f64>(); 4];
-        for q in 0..4 {
-            to[q] = four[q].as_mut_ptr().cast();
-        }
+    pub(super) fn set_all<P: Points>(&mut self, point: usize, columns: &[[P; D]; D]) {
+        let some = &mut self.gradient[point..point + P::LANES];
+        let to = some.as_mut_ptr().cast::<f64>();
         for a in 0..D {
             let column = &columns[a];
-            // SAFETY: column a of a gradient is four numbers, aligned to 32 bytes; all but the first D may be anything
+            // SAFETY: a gradient is D columns of four numbers; all but the first D of a column may be anything
             unsafe {
-                L::store_pairs([column[0], column[1.min(D - 1)]], after(&to, 4 * a));
+                P::store_strided([column[0], column[1.min(D - 1)]], to.add(4 * a), 4 * D);
                 if D == 3 {
-                    L::store_pairs([column[2], column[2]], after(&to, 4 * a + 2));
+                    P::store_strided([column[2], column[2]], to.add(4 * a + 2), 4 * D);
                 }
             }
         }
@@ -80,14 +77,4 @@ impl<const D: usize> Rates<D> {
     pub(super) fn hoops_from(&mut self, point: usize) -> &mut [MaybeUninit<f64>] {
         &mut self.hoop[point..]
     }
-}
-
-/// The addresses `count` numbers on.
-#[inline(always)]
-fn after(to: &[*mut f64; 4], count: usize) -> [*mut f64; 4] {
-    let mut addresses = *to;
-    for q in 0..4 {
-        addresses[q] = to[q].wrapping_add(count);
-    }
-    addresses
 }

@@ -1,38 +1,38 @@
-//! Four points that have the same nodes: the innermost loops in 2D and 3D of points that are stored cell by cell.
+//! Four or eight points that have the same nodes: the innermost loops in 2D and 3D of points that are stored cell by cell.
 //!
-//! Here a register holds the same number of all four points. A node is read once for the four, and what they give to it is summed
-//! before it is added.
+//! Here a register holds the same number of all points. A node is read once for all, and what they give to it is summed before
+//! it is added.
 
 use super::Tile;
-use super::group::{Four, Group};
+use super::group::{Group, Kept};
 use super::nodes::Stencil;
 use crate::basis::Basis;
 use crate::grid::Node;
-use crate::solver::lane::Lane;
+use crate::solver::lane::Points;
 
-/// What [`gather_linear`](super::nodes::gather_linear) says, for four points: a component of all four is in a lane, and the
+/// What [`gather_linear`](super::nodes::gather_linear) says, for points that have the same nodes: a component of all is in a lane, and the
 /// gradients are free of what nodes without mass would add to them.
 #[inline(always)]
 #[allow(clippy::type_complexity)] // values, and for each set of functions the columns of a gradient
 pub(super) unsafe fn gather_same<
-    L: Lane,
+    P: Points,
     const D: usize,
     const N: usize,
     B: Basis<N>,
     const M: usize,
 >(
     nodes: *const Node,
-    group: &Group<D, N>,
+    group: &Group<P, D, N>,
     tile: &Tile<D>,
-    g: [&[[Four; N]; D]; M],
-) -> ([L; D], [[[L; D]; D]; M]) {
-    let zero = L::splat(0.0);
+    g: [&[[Kept<P>; N]; D]; M],
+) -> ([P; D], [[[P; D]; D]; M]) {
+    let zero = P::splat(0.0);
     let mut values = [zero; D];
     let mut gradients = [[[zero; D]; D]; M];
     // one component after the other: all together do not fit 16 registers
     for c in 0..D {
         // SAFETY: as the caller says
-        let (value, slants) = unsafe { component::<L, D, N, M>(nodes, group, tile, g, c) };
+        let (value, slants) = unsafe { component::<P, D, N, M>(nodes, group, tile, g, c) };
         values[c] = value;
         for m in 0..M {
             for a in 0..D {
@@ -43,18 +43,18 @@ pub(super) unsafe fn gather_same<
     if B::SLOPES_JUMP && M > 0 {
         // number D says whether a node has mass
         // SAFETY: as the caller says
-        let (_, present) = unsafe { component::<L, D, N, M>(nodes, group, tile, g, D) };
+        let (_, present) = unsafe { component::<P, D, N, M>(nodes, group, tile, g, D) };
         free_of_absent(&values, &mut gradients, &present);
     }
     (values, gradients)
 }
 
-/// [`without_absent`](super::nodes::without_absent) for four points; `present` is what nodes with mass bring to a field that is one.
+/// [`without_absent`](super::nodes::without_absent) for several points; `present` is what nodes with mass bring to a field that is one.
 #[inline(always)]
-pub(super) fn free_of_absent<L: Lane, const D: usize, const M: usize>(
-    values: &[L; D],
-    gradients: &mut [[[L; D]; D]; M],
-    present: &[[L; D]; M],
+pub(super) fn free_of_absent<P: Points, const D: usize, const M: usize>(
+    values: &[P; D],
+    gradients: &mut [[[P; D]; D]; M],
+    present: &[[P; D]; M],
 ) {
     for m in 0..M {
         for a in 0..D {
@@ -67,16 +67,16 @@ pub(super) fn free_of_absent<L: Lane, const D: usize, const M: usize>(
 
 /// Number c of the nodes: with the weights, and for each set of functions with those in place of the weights along each axis.
 #[inline(always)]
-unsafe fn component<L: Lane, const D: usize, const N: usize, const M: usize>(
+unsafe fn component<P: Points, const D: usize, const N: usize, const M: usize>(
     nodes: *const Node,
-    group: &Group<D, N>,
+    group: &Group<P, D, N>,
     tile: &Tile<D>,
-    g: [&[[Four; N]; D]; M],
+    g: [&[[Kept<P>; N]; D]; M],
     c: usize,
-) -> (L, [[L; D]; M]) {
+) -> (P, [[P; D]; M]) {
     let s = Stencil { group, tile, q: 0 };
     let nodes = nodes.cast_mut();
-    let zero = L::splat(0.0);
+    let zero = P::splat(0.0);
     let mut sum = zero;
     let mut gradient = [[zero; D]; M];
     // not N, see `Tile::n`
@@ -87,7 +87,7 @@ unsafe fn component<L: Lane, const D: usize, const N: usize, const M: usize>(
         let mut change = [[zero; 2]; M];
         if D == 2 {
             // SAFETY: the tile addresses stored nodes only (module header of `stencil`)
-            let along = unsafe { row::<L, D, N, M>(s.row(nodes, i, 0).add(c), group, g) };
+            let along = unsafe { row::<P, D, N, M>(s.row(nodes, i, 0).add(c), group, g) };
             value = along.0;
             for m in 0..M {
                 change[m][0] = along.1[m];
@@ -95,21 +95,20 @@ unsafe fn component<L: Lane, const D: usize, const N: usize, const M: usize>(
         } else {
             for j in 0..N {
                 // SAFETY: as above
-                let along = unsafe { row::<L, D, N, M>(s.row(nodes, i, j).add(c), group, g) };
-                let wj: L = group.weight[1][j].get();
+                let along = unsafe { row::<P, D, N, M>(s.row(nodes, i, j).add(c), group, g) };
+                let wj: P = group.weight[1][j].get();
                 value = wj.mul_add(along.0, value);
                 for m in 0..M {
-                    let gj: L = g[m][1][j].get();
+                    let gj: P = g[m][1][j].get();
                     change[m][0] = gj.mul_add(along.0, change[m][0]);
                     change[m][1] = wj.mul_add(along.1[m], change[m][1]);
                 }
             }
         }
-        let wi: L = group.weight[0][i].get();
+        let wi: P = group.weight[0][i].get();
         sum = wi.mul_add(value, sum);
         for m in 0..M {
-            // what belongs to one axis is kept apart from the others, see `Lane::on_its_own`
-            let gi: L = g[m][0][i].get();
+            let gi: P = g[m][0][i].get();
             gradient[m][0] = gi.mul_add(value, gradient[m][0]).on_its_own();
             for a in 1..D {
                 gradient[m][a] = wi.mul_add(change[m][a - 1], gradient[m][a]).on_its_own();
@@ -121,17 +120,17 @@ unsafe fn component<L: Lane, const D: usize, const N: usize, const M: usize>(
 
 /// Value and slants along the last axis of the nodes of a row.
 #[inline(always)]
-unsafe fn row<L: Lane, const D: usize, const N: usize, const M: usize>(
+unsafe fn row<P: Points, const D: usize, const N: usize, const M: usize>(
     row: *const f64,
-    group: &Group<D, N>,
-    g: [&[[Four; N]; D]; M],
-) -> (L, [L; M]) {
-    let zero = L::splat(0.0);
+    group: &Group<P, D, N>,
+    g: [&[[Kept<P>; N]; D]; M],
+) -> (P, [P; M]) {
+    let zero = P::splat(0.0);
     let mut value = zero;
     let mut slants = [zero; M];
     for k in 0..N {
         // SAFETY: the caller vouches for N nodes
-        let number = L::splat(unsafe { *row.add(4 * k) });
+        let number = P::splat(unsafe { *row.add(4 * k) });
         value = more(k, group.weight[D - 1][k].get(), number, value);
         for m in 0..M {
             slants[m] = more(k, g[m][D - 1][k].get(), number, slants[m]);
@@ -142,33 +141,33 @@ unsafe fn row<L: Lane, const D: usize, const N: usize, const M: usize>(
 
 /// Adds `a b` to a sum; the first term is the sum.
 #[inline(always)]
-pub(super) fn more<L: Lane>(k: usize, a: L, b: L, sum: L) -> L {
+pub(super) fn more<P: Points>(k: usize, a: P, b: P, sum: P) -> P {
     if k == 0 { a * b } else { a.mul_add(b, sum) }
 }
 
-/// What four points give to their nodes, as [`Gift`](super::nodes::Gift) says of one: in a lane the same component of all four.
-pub(super) struct Gifts<L, const D: usize, const N: usize> {
+/// What points give to their nodes, as [`Gift`](super::nodes::Gift) says of one: in a lane the same component of all.
+pub(super) struct Gifts<P, const D: usize, const N: usize> {
     /// Components, and as number D the mass.
-    pub value: [L; 4],
+    pub value: [P; 4],
     /// Components of the slants.
-    pub slant: [[[Four; D]; N]; D],
+    pub slant: [[[Kept<P>; D]; N]; D],
 }
 
-impl<L: Lane, const D: usize, const N: usize> Gifts<L, D, N> {
+impl<P: Points, const D: usize, const N: usize> Gifts<P, D, N> {
     /// Nothing.
     #[inline(always)]
     pub(super) fn none() -> Self {
         Self {
-            value: [L::splat(0.0); 4],
-            slant: [[[Four::default(); D]; N]; D],
+            value: [P::splat(0.0); 4],
+            slant: [[[Kept::none(); D]; N]; D],
         }
     }
 }
 
-/// What [`scatter_gift`](super::nodes::scatter_gift) says, for four points.
+/// What [`scatter_gift`](super::nodes::scatter_gift) says, for points that have the same nodes.
 #[inline(always)]
 pub(super) unsafe fn scatter_same<
-    L: Lane,
+    P: Points,
     const D: usize,
     const N: usize,
     const VALUE: bool,
@@ -176,16 +175,16 @@ pub(super) unsafe fn scatter_same<
 >(
     of_value: *mut Node,
     of_slant: *mut Node,
-    group: &Group<D, N>,
+    group: &Group<P, D, N>,
     tile: &Tile<D>,
-    gifts: &Gifts<L, D, N>,
+    gifts: &Gifts<P, D, N>,
 ) {
-    let zero = L::splat(0.0);
+    let zero = P::splat(0.0);
     let s = Stencil { group, tile, q: 0 };
     // not N, see `Tile::n`
     let planes = if D == 3 { tile.n } else { N };
     for i in 0..planes {
-        let wi: L = group.weight[0][i].get();
+        let wi: P = group.weight[0][i].get();
         let mut along = [zero; D];
         if SLANT {
             for c in 0..D {
@@ -199,11 +198,11 @@ pub(super) unsafe fn scatter_same<
             let mut weight = wi;
             let mut slanted = along;
             if D == 3 {
-                let wj: L = group.weight[1][j].get();
+                let wj: P = group.weight[1][j].get();
                 weight = wi * wj;
                 if SLANT {
                     for c in 0..D {
-                        let middle: L = gifts.slant[1][j][c].get();
+                        let middle: P = gifts.slant[1][j][c].get();
                         slanted[c] = along[c].mul_add(wj, wi * middle);
                     }
                 }
@@ -217,7 +216,7 @@ pub(super) unsafe fn scatter_same<
             // SAFETY: the tile addresses stored nodes only, and they are this block's alone (module header of `stencil`)
             let (values, slants) = unsafe { (s.row(of_value, i, j), s.row(of_slant, i, j)) };
             for k in 0..N {
-                let wk: L = group.weight[D - 1][k].get();
+                let wk: P = group.weight[D - 1][k].get();
                 if VALUE {
                     let mut given = [zero; 4];
                     for c in 0..=D {
@@ -229,7 +228,7 @@ pub(super) unsafe fn scatter_same<
                 if SLANT {
                     let mut given = [zero; 4];
                     for c in 0..D {
-                        let slant: L = gifts.slant[D - 1][k][c].get();
+                        let slant: P = gifts.slant[D - 1][k][c].get();
                         given[c] = slanted[c].mul_add(wk, weight * slant);
                     }
                     if !VALUE {
@@ -243,12 +242,9 @@ pub(super) unsafe fn scatter_same<
     }
 }
 
-/// Node k of a row gets the sum over four points of each component.
+/// Node k of a row gets the sum over all points of each component.
 #[inline(always)]
-unsafe fn add<L: Lane>(row: *mut f64, k: usize, given: [L; 4]) {
+unsafe fn add<P: Points>(row: *mut f64, k: usize, given: [P; 4]) {
     // SAFETY: the caller's row has a node k
-    unsafe {
-        let node = row.add(4 * k);
-        (L::load(node) + L::sums(given)).store(node);
-    }
+    unsafe { P::add_sums(given, row.add(4 * k)) }
 }

@@ -1,15 +1,16 @@
 //! From points to the grid.
 
 use super::dilation::Centre;
-use super::group::{FourRows, Fours, Group, Needs};
+use super::group::{Fours, Group, Needs, Rows};
 use super::line::scatter_four;
 use super::nodes::{Gift, Stencil, scatter_gift};
 use super::same::{Gifts, scatter_same};
+use super::wider::Wider;
 use super::{Columns, Pass, Tile};
 use crate::basis::Basis;
 use crate::grid::{Block, Node};
 use crate::math::{Matrix, Vector, packed_len};
-use crate::solver::lane::Lane;
+use crate::solver::lane::{Lane, Points};
 use crate::transfer::Transfer;
 
 /// What points give to the grid.
@@ -40,13 +41,14 @@ impl Scattered {
 }
 
 /// Adds the points of one block to the grid: momenta and masses into `main`, internal forces
-/// into `force` (in N) where the transfer needs forces by themselves, else as impulses into `main` too.
+/// into `force` (in N) where the transfer needs forces by themselves, else as impulses into `main` too. Points are taken in groups
+/// of four or, where that pays, of as many as `E` has lanes.
 ///
 /// # Safety
 /// See the module header; `main` and `force` are arrays of the grid with all of the tile's nodes (`force` may dangle where the
 /// transfer does not use it), and no other thread adds to nodes of this tile meanwhile.
 #[inline(always)]
-pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+pub unsafe fn scatter<E: Points, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<D, B, T>,
     columns: &Columns<D>,
     block: &Block<D>,
@@ -56,25 +58,43 @@ pub unsafe fn scatter<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
     force: *mut Node,
 ) {
     let tile = Tile::new(block, edge, N);
-    let mut group = Group::<D, N>::new();
+    let mut group = Group::<E::Four, D, N>::new();
     let mut centre = Centre::new(pass);
     let mut gifts = Gifts::none();
     let needs = Needs {
         slope: what.force && !T::MOVING_LEAST_SQUARES,
         affine: T::AFFINE,
     };
-    for rows in Fours(block.points()) {
-        let FourRows { first, count } = rows;
-        // SAFETY: the rows belong to this block alone (module header)
-        let place = unsafe { columns.places::<L>(first, count) };
-        columns.prefetch::<L>(first, T::AFFINE && what.momentum, what.force);
-        group.set::<L, B, T>(pass, &tile, &place, needs);
-        if centre.used {
-            centre.set(&group);
+    let affine = T::AFFINE && what.momentum;
+    let mut wider = Wider::<E, D, N>::new();
+    let mut fours = Fours(block.points());
+    loop {
+        if let Some(rows) = wider.ahead(&fours, centre.used) {
+            // SAFETY: the rows belong to this block alone (module header), and the tile holds every node of their stencils
+            unsafe {
+                let place = columns.places::<E>(rows.first, E::LANES);
+                if wider.set(pass, &tile, &place, needs) {
+                    fours.drop_first(E::LANES);
+                    columns.prefetch::<E>(rows.first, affine, what.force);
+                    let Wider { group, gifts } = &mut wider;
+                    let first = rows.first;
+                    scatter_one(pass, columns, group, &tile, first, what, main, force, gifts);
+                    continue;
+                }
+            }
         }
-        // SAFETY: as the caller says, and as above
+        let Some(rows) = fours.next() else {
+            return;
+        };
+        // SAFETY: as above
         unsafe {
-            scatter_rows::<L, D, N, B, T>(
+            let place = columns.places::<E::Four>(rows.first, rows.count);
+            columns.prefetch::<E::Four>(rows.first, affine, what.force);
+            group.set(pass, &tile, &place, needs);
+            if centre.used {
+                centre.set(&group);
+            }
+            scatter_rows(
                 pass, columns, &group, &centre, &tile, rows, what, main, force, &mut gifts,
             );
         }
@@ -96,16 +116,16 @@ pub(super) unsafe fn scatter_rows<
 >(
     pass: &Pass<D, B, T>,
     columns: &Columns<D>,
-    group: &Group<D, N>,
-    centre: &Centre<D, N>,
+    group: &Group<L, D, N>,
+    centre: &Centre<L, D, N>,
     tile: &Tile<D>,
-    rows: FourRows,
+    rows: Rows,
     what: Scattered,
     main: *mut Node,
     force: *mut Node,
     gifts: &mut Gifts<L, D, N>,
 ) {
-    let FourRows { first, count } = rows;
+    let Rows { first, count } = rows;
     // SAFETY: as the caller says
     unsafe {
         if D == 1 {
@@ -129,8 +149,8 @@ pub(super) unsafe fn scatter_rows<
 unsafe fn scatter_point<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
     pass: &Pass<D, B, T>,
     columns: &Columns<D>,
-    s: &Stencil<'_, D, N>,
-    centre: &Centre<D, N>,
+    s: &Stencil<'_, L, D, N>,
+    centre: &Centre<L, D, N>,
     p: usize,
     what: Scattered,
     main: *mut Node,
@@ -156,7 +176,7 @@ unsafe fn scatter_point<L: Lane, const D: usize, const N: usize, B: Basis<N>, T:
                 // SAFETY: as above; column a of a D × D matrix
                 let column =
                     unsafe { L::load_point::<D>(columns.affine.add(p).cast::<f64>().add(a * D)) };
-                moment[a] = column * L::splat(mass * s.group.inertia[a].0[s.q]);
+                moment[a] = column * L::splat(mass * s.group.inertia[a].of(s.q));
             }
         }
     }
@@ -196,18 +216,18 @@ unsafe fn scatter_point<L: Lane, const D: usize, const N: usize, B: Basis<N>, T:
         if T::MOVING_LEAST_SQUARES {
             let column = moment[a] + pull[a];
             for i in 0..N {
-                slant[a][i] = column * L::splat(affine[a][i].0[s.q]);
+                slant[a][i] = column * s.splat(&affine[a][i]);
             }
             continue;
         }
         if T::AFFINE && what.momentum {
             for i in 0..N {
-                slant[a][i] = moment[a] * L::splat(affine[a][i].0[s.q]);
+                slant[a][i] = moment[a] * s.splat(&affine[a][i]);
             }
         }
         if what.force {
             for i in 0..N {
-                slant[a][i] = pull[a].mul_add(L::splat(slope[a][i].0[s.q]), slant[a][i]);
+                slant[a][i] = pull[a].mul_add(s.splat(&slope[a][i]), slant[a][i]);
             }
         }
     }
@@ -240,39 +260,45 @@ unsafe fn scatter_point<L: Lane, const D: usize, const N: usize, B: Basis<N>, T:
     }
 }
 
-/// [`scatter_point`] for the four points from row `first` on, which have the same nodes.
+/// [`scatter_point`] for the points of a group, from row `first` on, which have the same nodes.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-unsafe fn scatter_one<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: Transfer>(
+pub(super) unsafe fn scatter_one<
+    P: Points,
+    const D: usize,
+    const N: usize,
+    B: Basis<N>,
+    T: Transfer,
+>(
     pass: &Pass<D, B, T>,
     columns: &Columns<D>,
-    group: &Group<D, N>,
+    group: &Group<P, D, N>,
     tile: &Tile<D>,
     first: usize,
     what: Scattered,
     main: *mut Node,
     force: *mut Node,
-    gifts: &mut Gifts<L, D, N>,
+    gifts: &mut Gifts<P, D, N>,
 ) {
-    let zero = L::splat(0.0);
+    let zero = P::splat(0.0);
     let mut moment = [[zero; D]; D];
     let mut pull = [[zero; D]; D];
     let mut hoop = zero;
     gifts.value = [zero; 4];
     // SAFETY: these rows belong to this block alone (module header of `stencil`)
-    let mass = unsafe { columns.masses::<L>(first, 4) };
+    let mass = unsafe { columns.masses::<P>(first, P::LANES) };
     if what.momentum {
         // SAFETY: as above
-        let velocity = unsafe { columns.velocities::<L>(first, 4) };
+        let velocity = unsafe { columns.velocities::<P>(first, P::LANES) };
         for c in 0..D {
             gifts.value[c] = velocity[c] * mass;
         }
         gifts.value[D] = mass;
         if T::AFFINE {
             // SAFETY: as above
-            let affine = unsafe { columns.affines::<L>(first) };
+            let affine = unsafe { columns.affines::<P>(first) };
             for a in 0..D {
-                let inertia = mass * group.inertia[a].get::<L>();
+                let inertia = mass * group.inertia[a].get();
                 for c in 0..D {
                     moment[a][c] = affine[a][c] * inertia;
                 }
@@ -281,9 +307,9 @@ unsafe fn scatter_one<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
     }
     if what.force {
         let dt = if T::CHANGE { 1.0 } else { pass.dt };
-        let scale = mass * L::splat(-columns.specific_volume * dt);
+        let scale = mass * P::splat(-columns.specific_volume * dt);
         // SAFETY: as above
-        let stress = unsafe { columns.stresses::<L>(first) };
+        let stress = unsafe { columns.stresses::<P>(first) };
         for a in 0..D {
             for c in 0..D {
                 pull[a][c] = stress[a][c] * scale;
@@ -292,14 +318,14 @@ unsafe fn scatter_one<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
         if D == 2 && columns.axisymmetric {
             // SAFETY: as above
             unsafe {
-                let radius = columns.positions::<L>(first, 4)[0];
-                hoop = scale * columns.hoop_stresses::<L>(first) / radius;
+                let radius = columns.positions::<P>(first, P::LANES)[0];
+                hoop = scale * columns.hoop_stresses::<P>(first) / radius;
             }
         }
     }
     for a in 0..D {
         for i in 0..N {
-            let (affine, slope): (L, L) = (group.affine[a][i].get(), group.slope[a][i].get());
+            let (affine, slope): (P, P) = (group.affine[a][i].get(), group.slope[a][i].get());
             for c in 0..D {
                 let mut slant = zero;
                 if T::MOVING_LEAST_SQUARES {
@@ -320,27 +346,27 @@ unsafe fn scatter_one<L: Lane, const D: usize, const N: usize, B: Basis<N>, T: T
     unsafe {
         match (T::CHANGE, what.momentum, what.force) {
             (true, true, true) if !columns.axisymmetric => {
-                scatter_same::<L, D, N, true, true>(main, force, group, tile, gifts);
+                scatter_same::<P, D, N, true, true>(main, force, group, tile, gifts);
             }
             (true, momentum, internal) => {
                 if momentum {
-                    scatter_same::<L, D, N, true, false>(main, main, group, tile, gifts);
+                    scatter_same::<P, D, N, true, false>(main, main, group, tile, gifts);
                 }
                 if internal {
                     gifts.value = [zero; 4];
                     gifts.value[0] = hoop;
-                    scatter_same::<L, D, N, false, true>(force, force, group, tile, gifts);
+                    scatter_same::<P, D, N, false, true>(force, force, group, tile, gifts);
                 }
             }
             (false, _, true) => {
                 gifts.value[0] = gifts.value[0] + hoop;
-                scatter_same::<L, D, N, false, true>(main, main, group, tile, gifts);
+                scatter_same::<P, D, N, false, true>(main, main, group, tile, gifts);
             }
             (false, _, false) if T::AFFINE => {
-                scatter_same::<L, D, N, false, true>(main, main, group, tile, gifts);
+                scatter_same::<P, D, N, false, true>(main, main, group, tile, gifts);
             }
             (false, _, false) => {
-                scatter_same::<L, D, N, true, false>(main, main, group, tile, gifts);
+                scatter_same::<P, D, N, true, false>(main, main, group, tile, gifts);
             }
         }
     }
@@ -391,7 +417,7 @@ pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N
     forces: &[(u32, Vector<D>)],
 ) {
     let tile = Tile::new(block, edge, N);
-    let mut group = Group::<D, N>::new();
+    let mut group = Group::<L, D, N>::new();
     let needs = Needs {
         slope: true,
         affine: false,
@@ -399,7 +425,7 @@ pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N
     for (p, force) in forces {
         // SAFETY: row p belongs to this block alone (module header)
         let place = unsafe { columns.places::<L>(*p as usize, 1) };
-        group.set::<L, B, T>(pass, &tile, &place, needs);
+        group.set::<B, T>(pass, &tile, &place, needs);
         let s = Stencil {
             group: &group,
             tile: &tile,
@@ -414,7 +440,7 @@ pub unsafe fn scatter_forces<L: Lane, const D: usize, const N: usize, B: Basis<N
         for a in 0..D {
             let moment = value * L::splat(offset[a]);
             for i in 0..N {
-                gift.slant[a][i] = moment * L::splat(group.slope[a][i].0[0]);
+                gift.slant[a][i] = moment * s.splat(&group.slope[a][i]);
             }
         }
         // SAFETY: the tile holds every node of the stencil

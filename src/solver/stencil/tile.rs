@@ -2,7 +2,7 @@
 
 use crate::grid::{Block, Node};
 use crate::real::Real;
-use crate::solver::lane::Lane;
+use crate::solver::lane::Points;
 use std::mem::MaybeUninit;
 
 /// The most rows that a tile has: 15 × 15, for blocks of 8 and stencils of 6 in 3D.
@@ -137,9 +137,9 @@ impl<const D: usize> Reach<D> {
         (0..D).all(|a| x[a] >= self.low[a] && x[a] <= self.high[a])
     }
 
-    /// Whether four positions are inside.
+    /// Whether the positions of all points are inside.
     #[inline(always)]
-    pub(super) fn holds_all<L: Lane>(&self, x: &[L; D]) -> bool {
+    pub(super) fn holds_all<P: Points>(&self, x: &[P; D]) -> bool {
         let mut inside = true;
         for a in 0..D {
             inside &= x[a].all_within(self.low[a], self.high[a]);

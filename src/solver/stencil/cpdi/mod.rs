@@ -44,7 +44,7 @@ macro_rules! with_lanes {
     ($wide:expr, $kernel:ident($($argument:expr),* $(,)?)) => {{
         #[cfg(target_arch = "x86_64")]
         if $wide {
-            // SAFETY: the instructions were found (`wide_instructions`); the rest as the caller says
+            // SAFETY: the instructions were found; the rest as the caller says
             return unsafe { wide::$kernel::<D, T>($($argument),*) };
         }
         let _ = $wide;
