@@ -195,7 +195,7 @@ fn the_plate_is_read_with_its_boundaries_and_loads() {
         pressure.kind,
         LoadKind::Pressure {
             pressure: 2000.0,
-            side
+            side: Some(side)
         }
     );
     assert_eq!(scenario.output.every, 0.01);

@@ -104,6 +104,17 @@ fn loads_give_the_force_that_is_told() {
             // ∫ ρ 2 x over the block
             [84.0, -12.0],
         ),
+        // the upper of the two layers of points in the ball's reach looks up into it, 8 points wide
+        (
+            "surface",
+            "on.shape.ball = { center = [3.5, 3.2], radius = 1 }\npressure = 4",
+            [0.0, -8.0],
+        ),
+        (
+            "inside",
+            "on.shape.ball = { center = [3.5, 2], radius = 0.5 }\nforce = [3, -1]",
+            [3.0, -1.0],
+        ),
     ] {
         let text = format!("{BLOCK}\n[[load]]\nname = \"{kind}\"\nbody = \"block\"\n{load}\n");
         let plan = check(kind, &text);
@@ -134,6 +145,30 @@ fn a_traction_acts_on_the_face_it_is_given_for() {
         let exact = length * (place[0] * -2.0 - place[1]);
         assert!((torque - exact).abs() < 1e-9, "{side}: {torque}, {exact}");
     }
+}
+
+/// The bore of a ring, as seen along each axis; a body that is pressed in its bore alone goes nowhere and does not spin.
+#[test]
+fn a_pressure_in_a_bore_is_told_by_the_sides_that_it_acts_on() {
+    let ring = "shape.difference = { of.ball = { center = [4, 3], radius = 2.5 }, minus = [{ ball = { center = [4, 3], radius = 1 } }] }";
+    let text = BLOCK.replace("shape.box = { min = [2, 1], max = [5, 3] }", ring)
+        + "[[load]]\nbody = \"block\"\non.shape.ball = { center = [4, 3], radius = 1 }\npressure = 4\n";
+    let plan = check("bore", &text);
+    let faces = plan["loads"][0]["faces"].as_array().expect("a list");
+    let sides: Vec<_> = faces.iter().map(|faces| faces["side"].as_str()).collect();
+    assert_eq!(sides, ["x_min", "x_max", "y_min", "y_max"].map(Some));
+    for faces in faces {
+        // 2 m with points 0.25 m apart
+        assert_eq!(faces["count"], 8);
+        assert!((number(&faces["area"]) - 2.0).abs() < 1e-12);
+    }
+    let [before, after] = around_a_step(&text, |scene| {
+        let spin = scene.solver.angular_momentum(&scene.state, 0)[0];
+        (scene.state.bodies[0].totals().momentum, spin)
+    });
+    let force = (after.0 - before.0) / STEP;
+    assert!(force.norm() < 1e-9, "{force}");
+    assert!((after.1 - before.1).abs() / STEP < 1e-9);
 }
 
 /// Rings differ in mass; a force on all of them moves them alike.

@@ -130,14 +130,30 @@ fn describe(plan: &Plan) -> String {
             [1.0, 1.0] => String::new(),
             [low, high] => format!(" times a factor from {low} to {high}"),
         };
+        let faces = load.faces.iter();
+        let seen: Vec<_> = faces
+            .clone()
+            .map(|faces| format!("{:.4e} m² towards {}", faces.area, faces.side))
+            .collect();
+        let on = match faces.map(|faces| faces.count).sum::<usize>() {
+            0 => format!(
+                "{} of {}",
+                count(load.particles as f64, "particle"),
+                load.body
+            ),
+            all => format!(
+                "{} of {} ({})",
+                count(all as f64, "face"),
+                load.body,
+                seen.join(", ")
+            ),
+        };
         lines.push((
             "load",
             format!(
-                "{}: {} on {} of {}, {} N in all{factor}",
+                "{}: {} on {on}, {} N in all{factor}",
                 load.name,
                 load.kind,
-                count(load.particles as f64, "particle"),
-                load.body,
                 vector(&load.force)
             ),
         ));

@@ -1,14 +1,15 @@
 //! What running a scenario would mean: what is modelled, what it costs, what is likely to surprise.
 
+mod loads;
+
+pub use loads::LoadPlan;
+
 use super::advice::{Advice, Subject, advise};
 use super::reach;
 use super::run::step_warning;
-use crate::input::Variables;
 use crate::material::Plane;
 use crate::run::{Scene, SceneVisitor};
-use crate::scenario::{
-    LoadKind, LoadSpec, PointSet, ReferenceFrame, Region, Scenario, StepRule, body_points,
-};
+use crate::scenario::{PointSet, ReferenceFrame, Region, Scenario, StepRule, body_points};
 use crate::solver::TimeStep;
 use serde::Serialize;
 use std::time::{Duration, Instant};
@@ -114,27 +115,12 @@ pub struct BoundaryPlan {
     pub nodes: usize,
 }
 
-#[derive(Debug, Serialize)]
-pub struct LoadPlan {
-    pub name: String,
-    pub body: String,
-    pub kind: &'static str,
-    pub particles: usize,
-    /// Total over the points at the start and before the factor, N.
-    pub force: Vec<f64>,
-    /// Smallest and largest factor over the run.
-    pub factor: [f64; 2],
-}
-
 /// How long real steps are tried.
 const TRIAL: Duration = Duration::from_millis(300);
 /// Bytes that a sort of a body's points by block needs for each of them.
 const SORT_BYTES: f64 = 8.0;
 /// Bytes of a number in a table, with its comma.
 const NUMBER_BYTES: f64 = 20.0;
-/// Times at which the factor of a load is looked at.
-const FACTOR_SAMPLES: u32 = 2000;
-
 /// Builds the scene and finds out.
 pub struct Planner<'a> {
     pub scenario: &'a Scenario,
@@ -153,7 +139,7 @@ impl SceneVisitor for Planner<'_> {
         let bodies = bodies(scenario, &scene);
         let nodes = reach::held_nodes(scenario, &scene.state);
         let boundaries = boundaries(scenario, &nodes, &mut warnings);
-        let loads = loads(scenario, &mut warnings);
+        let loads = loads::loads(scenario, &mut warnings);
         let particles = scene.state.point_count();
         let output = output(scenario, &scene);
 
@@ -287,83 +273,6 @@ fn boundaries(
         }
     };
     specs.map(plan).collect()
-}
-
-fn loads(scenario: &Scenario, warnings: &mut Vec<String>) -> Vec<LoadPlan> {
-    let plan = |spec: &LoadSpec| {
-        let body = &scenario.bodies[spec.body];
-        let set = body_points(scenario, spec.body);
-        let chosen = set.selected(&spec.on);
-        let factor = factor_range(scenario, spec);
-        if factor == [0.0, 0.0] {
-            warnings.push(format!(
-                "load \"{}\": its factor is zero from the start to the end",
-                spec.name
-            ));
-        }
-        LoadPlan {
-            name: spec.name.clone(),
-            body: body.name.clone(),
-            kind: match &spec.kind {
-                LoadKind::Force(_) => "force",
-                LoadKind::Traction { .. } => "traction",
-                LoadKind::Pressure { .. } => "pressure",
-                LoadKind::Acceleration(_) => "acceleration",
-            },
-            particles: chosen.len(),
-            force: total_force(scenario, spec, &set, &chosen),
-            factor,
-        }
-    };
-    scenario.loads.iter().map(plan).collect()
-}
-
-fn factor_range(scenario: &Scenario, spec: &LoadSpec) -> [f64; 2] {
-    let Some(factor) = &spec.factor else {
-        return [1.0, 1.0];
-    };
-    let value = |k: u32| {
-        let time = scenario.end * f64::from(k) / f64::from(FACTOR_SAMPLES);
-        factor.value(&Variables {
-            position: [0.0; 3],
-            time,
-        })
-    };
-    let values = (0..=FACTOR_SAMPLES).map(value);
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-        [low.min(x), high.max(x)]
-    })
-}
-
-fn total_force(scenario: &Scenario, spec: &LoadSpec, set: &PointSet, chosen: &[usize]) -> Vec<f64> {
-    let area = |side| chosen.iter().map(|&p| set.side_area(p, side)).sum::<f64>();
-    match &spec.kind {
-        LoadKind::Force(force) => force.clone(),
-        LoadKind::Traction { traction, side } => {
-            let area = area(*side);
-            traction.iter().map(|t| t * area).collect()
-        }
-        LoadKind::Pressure { pressure, side } => {
-            let mut force = vec![0.0; scenario.dimension];
-            let inward = if side.upper { -1.0 } else { 1.0 };
-            force[side.axis] = inward * pressure * area(*side);
-            force
-        }
-        LoadKind::Acceleration(field) => {
-            let density = scenario.materials[scenario.bodies[spec.body].material].density;
-            let total = |component: &crate::input::Expression| {
-                let force = |&p: &usize| {
-                    let at = Variables {
-                        position: set.positions[p],
-                        time: 0.0,
-                    };
-                    density * set.volume(p) * component.value(&at)
-                };
-                chosen.iter().map(force).sum()
-            };
-            field.iter().map(total).collect()
-        }
-    }
 }
 
 fn output<const D: usize>(scenario: &Scenario, scene: &Scene<D>) -> OutputPlan {

@@ -3,8 +3,12 @@
 //! A box gets points of its own spacing that tile it exactly. Any other shape gets those points of a lattice aligned with
 //! the grid's cells that are inside it, and their volumes are scaled so that they add up to the exact one where it is known.
 
+mod faces;
+
+pub use faces::{Faces, loaded_faces};
+
 use super::shape::Shape;
-use super::{GridSpec, Region, Scenario};
+use super::{GridSpec, LoadPlace, Region, Scenario};
 use crate::boundary::Side;
 use crate::material::Plane;
 use rayon::prelude::*;
@@ -48,11 +52,11 @@ impl PointSet {
         2.0 * PI * radius.max(0.0) * face
     }
 
-    /// The numbers of the points that a load acts on: the outermost layer on a side, or all points inside a box.
-    pub fn selected(&self, on: &Region) -> Vec<usize> {
+    /// The numbers of the points in a place: the outermost layer on a side, or all points inside a box or a shape.
+    pub fn selected(&self, on: &LoadPlace) -> Vec<usize> {
         let all = || self.positions.iter().enumerate();
         match on {
-            Region::Side(side) => {
+            LoadPlace::Region(Region::Side(side)) => {
                 let outwards = |at: &[f64; 3]| {
                     if side.upper {
                         at[side.axis]
@@ -69,13 +73,20 @@ impl PointSet {
                     .map(|(index, _)| index)
                     .collect()
             }
-            Region::Box { min, max } => {
+            LoadPlace::Region(Region::Box { min, max }) => {
                 let inside = |at: &[f64; 3]| {
                     let bounds = min.iter().zip(max);
                     bounds.zip(at).all(|((min, max), x)| min <= x && x <= max)
                 };
                 all()
                     .filter(|(_, at)| inside(at))
+                    .map(|(index, _)| index)
+                    .collect()
+            }
+            LoadPlace::Shape(shape) => {
+                let dimension = shape.bounds().min.len();
+                all()
+                    .filter(|(_, at)| shape.contains(&at[..dimension]))
                     .map(|(index, _)| index)
                     .collect()
             }
@@ -95,18 +106,15 @@ impl PointSet {
 
 /// The points of one body of a scene.
 pub fn body_points(scenario: &Scenario, body: usize) -> PointSet {
-    let body = &scenario.bodies[body];
-    Filling::new(
-        &body.shape,
-        &scenario.grid,
-        &body.particles_per_cell,
-        scenario.plane,
-    )
-    .points()
+    body_filling(scenario, body).points()
 }
 
 /// How many points one body of a scene has.
 pub fn body_point_count(scenario: &Scenario, body: usize) -> u64 {
+    body_filling(scenario, body).count()
+}
+
+fn body_filling(scenario: &Scenario, body: usize) -> Filling<'_> {
     let body = &scenario.bodies[body];
     Filling::new(
         &body.shape,
@@ -114,7 +122,6 @@ pub fn body_point_count(scenario: &Scenario, body: usize) -> u64 {
         &body.particles_per_cell,
         scenario.plane,
     )
-    .count()
 }
 
 /// A shape and the lattice that fills it: what can be said before any memory is taken.
@@ -212,7 +219,7 @@ impl<'a> Filling<'a> {
             .into_par_iter()
             .find_map_first(|x| {
                 let mut found = None;
-                self.slice(x, self.first, self.count, |at| {
+                self.slice(x, self.first, self.count, |_, at| {
                     if found.is_none() && wanted(&at) {
                         found = Some(at);
                     }
@@ -226,7 +233,7 @@ impl<'a> Filling<'a> {
         let total = self.count() as usize;
         let mut positions = Vec::with_capacity(total);
         for x in self.first[0]..self.first[0] + self.count[0] {
-            self.slice(x, self.first, self.count, |at| positions.push(at));
+            self.slice(x, self.first, self.count, |_, at| positions.push(at));
         }
         let mut points = PointSet {
             positions,
@@ -279,14 +286,20 @@ impl<'a> Filling<'a> {
             .into_par_iter()
             .map(|x| {
                 let mut inside = 0;
-                self.slice(x, first, count, |_| inside += 1);
+                self.slice(x, first, count, |_, _| inside += 1);
                 inside
             })
             .sum()
     }
 
-    /// Calls `visit` with every point of the slice number `x` across the first axis.
-    fn slice(&self, x: u64, first: [u64; 3], count: [u64; 3], mut visit: impl FnMut([f64; 3])) {
+    /// Calls `visit` with the cell and the place of every point of the slice number `x` across the first axis.
+    fn slice(
+        &self,
+        x: u64,
+        first: [u64; 3],
+        count: [u64; 3],
+        mut visit: impl FnMut([u64; 3], [f64; 3]),
+    ) {
         let whole = matches!(self.shape, Shape::Cuboid(_));
         let mut at = [self.coordinate(0, x), 0.0, 0.0];
         for y in first[1]..first[1] + count[1] {
@@ -298,7 +311,7 @@ impl<'a> Filling<'a> {
                     at[2] = self.coordinate(2, z);
                 }
                 if whole || self.shape.contains(&at[..self.dimension]) {
-                    visit(at);
+                    visit([x, y, z], at);
                 }
             }
         }

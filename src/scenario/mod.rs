@@ -9,7 +9,7 @@ mod load;
 pub mod shape;
 
 pub use crate::boundary::Side;
-pub use fill::{Filling, PointSet, body_point_count, body_points};
+pub use fill::{Faces, Filling, PointSet, body_point_count, body_points, loaded_faces};
 pub use load::{InputError, Loaded, load, parse};
 
 use crate::basis::BasisChoice;
@@ -194,7 +194,7 @@ pub struct BodySpec {
     pub velocity: Vec<Expression>,
 }
 
-/// Where a condition or a load acts.
+/// Where a condition acts, or a load on flat sides.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
     /// Boundaries: the nodes on this side of the grid. Loads: the outermost layer of the body's points on this side.
@@ -220,6 +220,15 @@ pub struct BoundarySpec {
     pub condition: ConditionChoice,
 }
 
+/// Where a load acts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LoadPlace {
+    /// A side of the body, or the points in a box.
+    Region(Region),
+    /// The points (in their initial position) inside a shape; for a pressure the free faces of points that look into it.
+    Shape(shape::Shape),
+}
+
 /// Forces on the points of one body.
 #[derive(Clone, Debug)]
 pub struct LoadSpec {
@@ -227,8 +236,8 @@ pub struct LoadSpec {
     pub name: String,
     /// Index into [`Scenario::bodies`].
     pub body: usize,
-    /// Which points.
-    pub on: Region,
+    /// Which points, or which of their faces.
+    pub on: LoadPlace,
     /// What acts on them.
     pub kind: LoadKind,
     /// Multiplies the load; an expression of t.
@@ -247,12 +256,12 @@ pub enum LoadKind {
         /// The side whose area counts.
         side: Side,
     },
-    /// Pressure on the loaded side, Pa, positive into the body, in the direction of the undeformed normal.
+    /// Pressure on the loaded faces, Pa, positive into the body, in the direction of the undeformed normal.
     Pressure {
         /// Size, Pa.
         pressure: f64,
-        /// The side that it acts on.
-        side: Side,
+        /// The side that it acts on; none in [`LoadPlace::Shape`], where faces of every direction are loaded.
+        side: Option<Side>,
     },
     /// Acceleration of every chosen point, m/s²: expressions of its initial position and of time.
     Acceleration(Vec<Expression>),

@@ -21,7 +21,7 @@ mod time_step;
 
 pub use kernels::{Kernels, Stencils};
 pub use ledger::{Account, GridSums, Ledger, Stored};
-pub use loads::{Load, LoadForce, Loads};
+pub use loads::{Factor, Load, LoadForce, Loads};
 pub use mpm::{Mpm, Setup};
 pub use stencil::Domains;
 pub use time_step::{Limit, TimeStep};

@@ -5,7 +5,8 @@ use super::{AXES, Advice, Subject, aligned, along, stencil};
 use crate::input::Variables;
 use crate::material::Plane;
 use crate::scenario::{
-    BodySpec, BoundarySpec, GridSpec, LoadKind, LoadSpec, PointSet, Region, Scenario,
+    BodySpec, BoundarySpec, GridSpec, LoadKind, LoadPlace, LoadSpec, PointSet, Region, Scenario,
+    loaded_faces,
 };
 
 pub fn advise(subject: &Subject) -> Vec<Advice> {
@@ -111,7 +112,7 @@ impl<'a> Mirror<'a> {
             },
             LoadKind::Pressure { pressure, side } => LoadKind::Pressure {
                 pressure: *pressure,
-                side: side.mirrored(self.axis),
+                side: side.map(|side| side.mirrored(self.axis)),
             },
             LoadKind::Acceleration(field) => {
                 let image = field.iter().enumerate();
@@ -131,11 +132,17 @@ fn is_symmetric(scenario: &Scenario, sets: &[PointSet], axis: usize) -> bool {
         })
     };
     let load_has_image = |spec: &LoadSpec| {
-        let (on, kind) = (mirror.region(&spec.on), mirror.load(&spec.kind));
+        let kind = mirror.load(&spec.kind);
+        let LoadPlace::Region(on) = &spec.on else {
+            return kind.as_ref() == Some(&spec.kind)
+                && shape_is_symmetric(&mirror, scenario, spec, &sets[spec.body]);
+        };
+        let on = mirror.region(on);
         scenario.loads.iter().any(|other| {
-            other.body == spec.body
+            let there = matches!(&other.on, LoadPlace::Region(own) if mirror.same_region(own, &on));
+            there
+                && other.body == spec.body
                 && other.factor == spec.factor
-                && mirror.same_region(&other.on, &on)
                 && Some(&other.kind) == kind.as_ref()
         })
     };
@@ -149,6 +156,35 @@ fn is_symmetric(scenario: &Scenario, sets: &[PointSet], axis: usize) -> bool {
             .iter()
             .zip(sets)
             .all(|(body, points)| body_is_symmetric(&mirror, body, points))
+}
+
+/// Whether, of a body that is its own image, a load on a shape chooses points or faces that are their own image.
+fn shape_is_symmetric(
+    mirror: &Mirror,
+    scenario: &Scenario,
+    spec: &LoadSpec,
+    points: &PointSet,
+) -> bool {
+    let LoadPlace::Shape(shape) = &spec.on else {
+        return false;
+    };
+    let has_image = |mut at: [f64; 3]| {
+        at[mirror.axis] = mirror.place(at[mirror.axis]);
+        shape.contains(&at[..scenario.dimension])
+    };
+    if let LoadKind::Force(_) | LoadKind::Acceleration(_) = spec.kind {
+        let mut chosen = points.selected(&spec.on).into_iter();
+        return chosen.all(|p| has_image(points.positions[p]));
+    }
+    loaded_faces(scenario, spec, points).iter().all(|faces| {
+        let axis = faces.side.axis;
+        faces.points.iter().all(|&p| {
+            // the place that has to be in the shape for the face to be loaded
+            let mut beyond = points.positions[p];
+            beyond[axis] -= faces.inwards() * points.spacing[axis];
+            has_image(beyond)
+        })
+    })
 }
 
 /// Whether every point has an image that moves as its mirror image does, and none lies on the plane.

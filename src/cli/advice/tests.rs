@@ -172,6 +172,14 @@ velocity = [1, 0, 0]
         let change = format!("body[0].shape={shape}");
         assert_eq!(of("uniform_along_axis", round, &[&change]), None, "{shape}");
     }
+    let pressed = |into: &str| {
+        let change = format!("load=[{{ body = \"b\", on.shape = {into}, pressure = 1 }}]");
+        of("uniform_along_axis", round, &[&change])
+    };
+    let around = "{ cylinder = { from = [2.2, 3, 0], to = [2.2, 3, 2], radius = 3 } }";
+    assert!(pressed(around).is_some());
+    let to_the_middle = "{ cylinder = { from = [2.2, 3, 0], to = [2.2, 3, 1], radius = 3 } }";
+    assert_eq!(pressed(to_the_middle), None);
 }
 
 /// A block on a floor, in the middle of the grid, falling apart sideways.
@@ -206,6 +214,8 @@ fn a_block_that_is_its_own_image_needs_half() {
         "boundary=[{ name = \"m\", on.box = { min = [3, 0], max = [5, 0] }, condition = \"fixed\" }]",
         "load=[{ body = \"block\", on.side = \"x_min\", traction = [-1, 0] }, { body = \"block\", on.side = \"x_max\", traction = [1, 0] }]",
         "load=[{ body = \"block\", on.side = \"y_max\", pressure = 1 }]",
+        "load=[{ body = \"block\", on.shape.ball = { center = [4, 2.5], radius = 1 }, pressure = 1 }]",
+        "load=[{ body = \"block\", on.shape.ball = { center = [4, 1], radius = 0.8 }, force = [0, 1] }]",
     ] {
         assert!(
             of("mirror_symmetry", BLOCK, &[change]).is_some(),
@@ -230,6 +240,9 @@ fn what_differs_from_its_image_needs_the_whole() {
         "boundary=[{ name = \"m\", on.side = \"y_min\", condition.driven = { velocity = [0.1, 0] } }]",
         "load=[{ body = \"block\", on.side = \"x_max\", traction = [1, 0] }]",
         "load=[{ body = \"block\", on.side = \"y_max\", traction = [1, 0] }]",
+        "load=[{ body = \"block\", on.shape.ball = { center = [4.5, 2.5], radius = 1 }, pressure = 1 }]",
+        "load=[{ body = \"block\", on.shape.ball = { center = [4.5, 1], radius = 0.8 }, force = [0, 1] }]",
+        "load=[{ body = \"block\", on.shape.ball = { center = [4, 1], radius = 0.8 }, force = [1, 0] }]",
     ] {
         assert_eq!(of("mirror_symmetry", BLOCK, &[change]), None, "{change}");
     }

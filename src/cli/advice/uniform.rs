@@ -10,7 +10,8 @@ use crate::input::Expression;
 use crate::material::Plane;
 use crate::scenario::shape::Shape;
 use crate::scenario::{
-    BodySpec, BoundarySpec, GridSpec, LoadKind, LoadSpec, PointSet, ProbeTarget, Region, Scenario,
+    BodySpec, BoundarySpec, GridSpec, LoadKind, LoadPlace, LoadSpec, PointSet, ProbeTarget, Region,
+    Scenario,
 };
 use crate::transfer::TransferChoice;
 
@@ -115,11 +116,16 @@ fn boundary_allows(spec: &BoundarySpec, grid: &GridSpec, axis: usize) -> bool {
 }
 
 fn load_allows(load: &LoadSpec, grid: &GridSpec, axis: usize) -> bool {
-    spans(&load.on, grid, axis)
+    let goes_through = match &load.on {
+        LoadPlace::Region(on) => spans(on, grid, axis),
+        // it ends with the grid: no face at the ends looks into it
+        LoadPlace::Shape(shape) => is_prism(shape, grid, axis),
+    };
+    goes_through
         && match &load.kind {
             LoadKind::Force(force) => force[axis] == 0.0,
             LoadKind::Traction { traction, side } => traction[axis] == 0.0 && side.axis != axis,
-            LoadKind::Pressure { side, .. } => side.axis != axis,
+            LoadKind::Pressure { side, .. } => side.is_none_or(|side| side.axis != axis),
             LoadKind::Acceleration(field) => moves_across(field, axis),
         }
 }

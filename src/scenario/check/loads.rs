@@ -1,11 +1,12 @@
 //! Gravity, damping and loads.
 
-use super::{CountedBody, Frame, Named, named, region};
+use super::{CountedBody, Frame, Named, named, region_under};
 use crate::boundary::Side;
 use crate::input::{Bound, Reader, Unit};
 use crate::material::Plane;
 use crate::scenario::fill::Filling;
-use crate::scenario::{GridSpec, LoadKind, LoadSpec, Region};
+use crate::scenario::shape::Shape;
+use crate::scenario::{GridSpec, LoadKind, LoadPlace, LoadSpec, Region};
 
 /// Acceleration of gravity; zero if left out.
 pub(super) fn gravity(root: &mut Reader<'_>, frame: Frame) -> Option<Vec<f64>> {
@@ -63,7 +64,7 @@ fn load(
         "body",
         bodies.iter().map(|named| &named.name[..]),
     );
-    let on = region(reader, frame, grid);
+    let on = place(reader, frame, grid);
     let kind = kind(reader, frame, on.as_ref());
     let factor = if reader.has("factor") {
         reader.expression("factor", Unit::NONE, &["t"]).map(Some)
@@ -71,20 +72,14 @@ fn load(
         Some(None)
     };
     let (body, on) = (body?, on?);
-    if let (Some(grid), Region::Box { min, max }) = (grid, &on)
+    if let (Some(grid), Some(kind)) = (grid, &kind)
         && let Some(CountedBody {
             body,
             points: Some(_),
         }) = &bodies[body].found
-        && !Filling::new(&body.shape, grid, &body.particles_per_cell, frame.plane).reaches(min, max)
     {
-        reader.problem(
-            "on.box",
-            format!(
-                "no material point of \"{}\" is inside this box: move it or make it larger",
-                body.name
-            ),
-        );
+        let filling = Filling::new(&body.shape, grid, &body.particles_per_cell, frame.plane);
+        check_reach(reader, &body.name, &filling, &on, kind);
     }
     Some(LoadSpec {
         name: name?,
@@ -95,7 +90,61 @@ fn load(
     })
 }
 
-fn kind(reader: &mut Reader<'_>, frame: Frame, on: Option<&Region>) -> Option<LoadKind> {
+/// Where a load acts: `on.side`, `on.box` or `on.shape`.
+fn place(reader: &mut Reader<'_>, frame: Frame, grid: Option<&GridSpec>) -> Option<LoadPlace> {
+    let mut on = reader.table_such_as(
+        "on",
+        "on.side = \"x_min\", on.box = { min = [...], max = [...] } or on.shape = { ball = { center = [...], radius = ... } }",
+    )?;
+    let place = match on.one_key(&["side", "box", "shape"])? {
+        "shape" => {
+            let mut table = on.table("shape")?;
+            let shape = Shape::read(&mut table, frame.dimension)?;
+            table.finish();
+            LoadPlace::Shape(shape)
+        }
+        key => LoadPlace::Region(region_under(&mut on, key, frame, grid)?),
+    };
+    on.finish();
+    Some(place)
+}
+
+/// Notes a problem if a load acts on nothing of its body.
+fn check_reach(
+    reader: &mut Reader<'_>,
+    body: &str,
+    filling: &Filling<'_>,
+    on: &LoadPlace,
+    kind: &LoadKind,
+) {
+    let no_point = |place| {
+        format!("no material point of \"{body}\" is inside this {place}: move it or make it larger")
+    };
+    match on {
+        LoadPlace::Region(Region::Box { min, max }) if !filling.reaches(min, max) => {
+            reader.problem("on.box", no_point("box"));
+        }
+        LoadPlace::Shape(shape) if matches!(kind, LoadKind::Pressure { .. }) => {
+            if !filling.looks_into(shape) {
+                let message = format!(
+                    "no surface of \"{body}\" looks into this shape: it has to hold the space in front of the loaded surface to a depth of half \
+                     the points' spacing or more, as a ball that fills a bore does"
+                );
+                reader.problem("on.shape", message);
+            }
+        }
+        LoadPlace::Shape(shape) => {
+            let dimension = shape.bounds().min.len();
+            let inside = |at: &[f64; 3]| shape.contains(&at[..dimension]);
+            if filling.find(inside).is_none() {
+                reader.problem("on.shape", no_point("shape"));
+            }
+        }
+        LoadPlace::Region(_) => {}
+    }
+}
+
+fn kind(reader: &mut Reader<'_>, frame: Frame, on: Option<&LoadPlace>) -> Option<LoadKind> {
     let kind = reader.one_key(&["force", "traction", "pressure", "acceleration"])?;
     if kind == "acceleration" {
         let variables = &["x", "y", "z", "t"];
@@ -119,9 +168,22 @@ fn kind(reader: &mut Reader<'_>, frame: Frame, on: Option<&Region>) -> Option<Lo
             .vector("force", Unit::FORCE, frame.dimension)
             .map(LoadKind::Force);
     }
+    if let Some(LoadPlace::Shape(_)) = on {
+        if reader.has("side") {
+            let message =
+                "with on.shape every surface that looks into the shape is loaded: remove this key";
+            reader.problem("side", message);
+        }
+        if kind == "traction" {
+            let message = "a traction needs the area of a flat side, and on.shape has none: give on.side or on.box, a pressure, or the total as a force";
+            reader.problem("traction", message);
+            return None;
+        }
+    }
     let side = match on {
-        Some(Region::Side(side)) => Some(*side),
-        Some(Region::Box { .. }) => Side::read(reader, "side", frame.dimension),
+        Some(LoadPlace::Region(Region::Side(side))) => Some(*side),
+        Some(LoadPlace::Region(Region::Box { .. })) => Side::read(reader, "side", frame.dimension),
+        Some(LoadPlace::Shape(_)) => None,
         None => {
             reader.used("side");
             None
@@ -134,9 +196,7 @@ fn kind(reader: &mut Reader<'_>, frame: Frame, on: Option<&Region>) -> Option<Lo
             side: side?,
         });
     }
-    let pressure = reader.required("pressure", Unit::PRESSURE, Bound::Any);
-    Some(LoadKind::Pressure {
-        pressure: pressure?,
-        side: side?,
-    })
+    let pressure = reader.required("pressure", Unit::PRESSURE, Bound::Any)?;
+    let complete = side.is_some() || matches!(on, Some(LoadPlace::Shape(_)));
+    complete.then_some(LoadKind::Pressure { pressure, side })
 }

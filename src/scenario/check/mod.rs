@@ -244,27 +244,36 @@ fn named<'n>(
     found
 }
 
-/// Where something acts: `on.side` or `on.box`.
+/// Where a condition acts: `on.side` or `on.box`.
 fn region(reader: &mut Reader<'_>, frame: Frame, grid: Option<&GridSpec>) -> Option<Region> {
     let mut on = reader.table_such_as(
         "on",
         "on.side = \"x_min\" or on.box = { min = [...], max = [...] }",
     )?;
-    let region = match on.one_key(&["side", "box"])? {
-        "side" => Region::Side(Side::read(&mut on, "side", frame.dimension)?),
-        _ => {
-            let mut table = on.table("box")?;
-            let (min, max) = corners(&mut table, frame.dimension)?;
-            table.finish();
-            let slack = TINY * grid.map_or(0.0, |grid| grid.cell_size);
-            Region::Box {
-                min: min.iter().map(|x| x - slack).collect(),
-                max: max.iter().map(|x| x + slack).collect(),
-            }
-        }
-    };
+    let key = on.one_key(&["side", "box"])?;
+    let region = region_under(&mut on, key, frame, grid)?;
     on.finish();
     Some(region)
+}
+
+/// The region that stands under `key`, `side` or `box`, of a table `on`.
+fn region_under(
+    on: &mut Reader<'_>,
+    key: &str,
+    frame: Frame,
+    grid: Option<&GridSpec>,
+) -> Option<Region> {
+    if key == "side" {
+        return Side::read(on, "side", frame.dimension).map(Region::Side);
+    }
+    let mut table = on.table("box")?;
+    let (min, max) = corners(&mut table, frame.dimension)?;
+    table.finish();
+    let slack = TINY * grid.map_or(0.0, |grid| grid.cell_size);
+    Some(Region::Box {
+        min: min.iter().map(|x| x - slack).collect(),
+        max: max.iter().map(|x| x + slack).collect(),
+    })
 }
 
 /// The corners of a box that may be open on one end.

@@ -4,7 +4,7 @@ use super::{Filling, PointSet};
 use crate::boundary::Side;
 use crate::material::Plane;
 use crate::scenario::shape::{Ball, Cuboid, Shape};
-use crate::scenario::{GridSpec, Region};
+use crate::scenario::{GridSpec, LoadPlace, Region};
 
 fn grid(cells: &[i32], cell_size: f64) -> GridSpec {
     let max = cells
@@ -126,7 +126,7 @@ fn points_of_an_axisymmetric_scene_are_rings() {
         upper: true,
     };
     let area: f64 = points
-        .selected(&Region::Side(outer))
+        .selected(&LoadPlace::Region(Region::Side(outer)))
         .iter()
         .map(|k| points.side_area(*k, outer))
         .sum();
@@ -136,7 +136,7 @@ fn points_of_an_axisymmetric_scene_are_rings() {
         upper: true,
     };
     let area: f64 = points
-        .selected(&Region::Side(top))
+        .selected(&LoadPlace::Region(Region::Side(top)))
         .iter()
         .map(|k| points.side_area(*k, top))
         .sum();
@@ -151,7 +151,7 @@ fn a_side_is_its_outermost_layer_with_the_area_of_the_face() {
         axis: 1,
         upper: true,
     };
-    let selected = points.selected(&Region::Side(side));
+    let selected = points.selected(&LoadPlace::Region(Region::Side(side)));
     assert_eq!(selected.len(), 4 * 2);
     assert!(
         selected
@@ -174,7 +174,7 @@ fn a_box_selects_what_it_holds() {
     assert!(filling.reaches(&min, &max));
     assert!(!filling.reaches(&[0.13, 0.0], &[0.37, 1.0]));
     let points = filling.points();
-    let selected = points.selected(&Region::Box { min, max });
+    let selected = points.selected(&LoadPlace::Region(Region::Box { min, max }));
     assert_eq!(selected, [1, 2, 3, 5, 6, 7]);
     assert_eq!(points.nearest(&[0.25, 0.25]), Some(0));
     assert_eq!(points.nearest(&[9.0, 0.4]), Some(13));

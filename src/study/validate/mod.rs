@@ -58,6 +58,7 @@ cases! {
     cantilever,
     cantilever_shear,
     breathing_ring,
+    pressurised_ring,
     survivors,
     total_lagrangian,
 }
