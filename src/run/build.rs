@@ -272,7 +272,7 @@ fn region<const D: usize>(on: &Region, grid: &GridSpec) -> (Vector<D>, Vector<D>
     }
 }
 
-/// What a load of a scenario comes to: forces on points, all at the same place beside them; on faces one load for each direction.
+/// What a load of a scenario comes to: forces that act at one and the same offset from their points; of faces, one load for each direction.
 fn loads<const D: usize>(
     scenario: &Scenario,
     spec: &LoadSpec,
@@ -291,6 +291,7 @@ fn loads<const D: usize>(
         }),
         force,
     };
+    // forces of an area, its side and the direction inwards
     let on_faces = |force: &dyn Fn(f64, Side, f64) -> Vector<D>| {
         let faces = loaded_faces(scenario, spec, set).into_iter();
         let on_side = faces.map(|faces| {

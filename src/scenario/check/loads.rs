@@ -72,14 +72,14 @@ fn load(
         Some(None)
     };
     let (body, on) = (body?, on?);
-    if let (Some(grid), Some(kind)) = (grid, &kind)
+    if let Some(grid) = grid
         && let Some(CountedBody {
             body,
             points: Some(_),
         }) = &bodies[body].found
     {
         let filling = Filling::new(&body.shape, grid, &body.particles_per_cell, frame.plane);
-        check_reach(reader, &body.name, &filling, &on, kind);
+        check_reach(reader, &body.name, &filling, &on, kind.as_ref());
     }
     Some(LoadSpec {
         name: name?,
@@ -115,32 +115,32 @@ fn check_reach(
     body: &str,
     filling: &Filling<'_>,
     on: &LoadPlace,
-    kind: &LoadKind,
+    kind: Option<&LoadKind>,
 ) {
     let no_point = |place| {
         format!("no material point of \"{body}\" is inside this {place}: move it or make it larger")
     };
-    match on {
-        LoadPlace::Region(Region::Box { min, max }) if !filling.reaches(min, max) => {
+    match (on, kind) {
+        (LoadPlace::Region(Region::Box { min, max }), _) if !filling.reaches(min, max) => {
             reader.problem("on.box", no_point("box"));
         }
-        LoadPlace::Shape(shape) if matches!(kind, LoadKind::Pressure { .. }) => {
-            if !filling.looks_into(shape) {
-                let message = format!(
-                    "no surface of \"{body}\" looks into this shape: it has to hold the space in front of the loaded surface to a depth of half \
-                     the points' spacing or more, as a ball that fills a bore does"
-                );
-                reader.problem("on.shape", message);
-            }
+        (LoadPlace::Shape(shape), Some(LoadKind::Pressure { .. }))
+            if !filling.looks_into(shape) =>
+        {
+            let message = format!(
+                "no surface of \"{body}\" looks into this shape: it has to hold the space in front of the loaded surface to a depth of half \
+                 the points' spacing or more, as a ball that fills a bore does"
+            );
+            reader.problem("on.shape", message);
         }
-        LoadPlace::Shape(shape) => {
+        (LoadPlace::Shape(shape), Some(LoadKind::Force(_) | LoadKind::Acceleration(_))) => {
             let dimension = shape.bounds().min.len();
             let inside = |at: &[f64; 3]| shape.contains(&at[..dimension]);
             if filling.find(inside).is_none() {
                 reader.problem("on.shape", no_point("shape"));
             }
         }
-        LoadPlace::Region(_) => {}
+        _ => {}
     }
 }
 
