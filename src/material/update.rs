@@ -171,6 +171,7 @@ pub(super) fn every_group<R: Real, const D: usize, M: Material<D>>(
     material: &M,
     rows: Rows<'_, D>,
 ) {
+    assert!(rows.increments.rates.len().is_multiple_of(R::LANES));
     if rows.stress.hoop.is_empty() {
         every_group_of::<R, D, M, false>(material, rows);
     } else {

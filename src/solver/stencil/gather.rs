@@ -85,28 +85,25 @@ pub unsafe fn gather<E: Points, const D: usize, const N: usize, B: Basis<N>, T: 
     let mut sums = GatheredLanes::<E::Four>::new();
     let affine = T::AFFINE && what.velocity;
     let start = rows.start;
+    let asked_of = |rows| Asked {
+        columns,
+        rows,
+        what,
+        sources,
+    };
     let mut wider = Wider::<E, D, N>::new();
     let mut fours = Fours(rows);
     loop {
-        if let Some(rows) = wider.ahead(&fours, centre.used) {
-            // SAFETY: the rows belong to this block alone, and the tile holds every node of their stencils (module header)
-            unsafe {
-                let place = columns.places::<E>(rows.first, E::LANES);
-                if wider.set(pass, tile, &place, needs) {
-                    fours.drop_first(E::LANES);
-                    columns.prefetch::<E>(rows.first, affine, false);
-                    let at = rows.first - start;
-                    let asked = Asked {
-                        columns,
-                        rows,
-                        what,
-                        sources,
-                    };
-                    let gradients = Some((&mut *rates, at));
-                    let offered = offered_to_one(pass, &asked, &wider.group, tile, gradients);
-                    sums.bring(pass, &asked, reach, &place, &offered, rates.hoops_from(at));
-                    continue;
-                }
+        // SAFETY: the rows belong to this block alone, and the tile holds every node of their stencils (module header)
+        unsafe {
+            let eight = wider.take(&mut fours, pass, columns, tile, needs, centre.used);
+            if let Some((rows, place)) = eight {
+                columns.prefetch::<E>(rows.first, affine, false);
+                let (at, asked) = (rows.first - start, asked_of(rows));
+                let gradients = Some((&mut *rates, at));
+                let offered = offered_to_one(pass, &asked, &wider.group, tile, gradients);
+                sums.bring(pass, &asked, reach, &place, &offered, rates.hoops_from(at));
+                continue;
             }
         }
         let Some(rows) = fours.next() else {
@@ -120,13 +117,7 @@ pub unsafe fn gather<E: Points, const D: usize, const N: usize, B: Basis<N>, T: 
             if centre.used {
                 centre.set(&group);
             }
-            let at = rows.first - start;
-            let asked = Asked {
-                columns,
-                rows,
-                what,
-                sources,
-            };
+            let (at, asked) = (rows.first - start, asked_of(rows));
             let gradients = Some((&mut *rates, at));
             let offered = offered(pass, &asked, &group, &centre, tile, gradients);
             sums.bring(pass, &asked, reach, &place, &offered, rates.hoops_from(at));
@@ -169,22 +160,19 @@ pub unsafe fn exchange<E: Points, const D: usize, const N: usize, B: Basis<N>, T
     let mut wider = Wider::<E, D, N>::new();
     let mut fours = Fours(block.points());
     loop {
-        if let Some(rows) = wider.ahead(&fours, centre.used) {
-            // SAFETY: as in `gather`, and as in `scatter`
-            unsafe {
-                let place = columns.places::<E>(rows.first, E::LANES);
-                if wider.set(pass, &tile, &place, needs) {
-                    fours.drop_first(E::LANES);
-                    let asked = asked_of(rows);
-                    let offered = offered_to_one(pass, &asked, &wider.group, &tile, None);
-                    sums.take(pass, &asked, &offered);
-                    let Wider { group, gifts } = &mut wider;
-                    let first = rows.first;
-                    scatter_one(
-                        pass, columns, group, &tile, first, what, second, second, gifts,
-                    );
-                    continue;
-                }
+        // SAFETY: as in `gather`, and as in `scatter`
+        unsafe {
+            let eight = wider.take(&mut fours, pass, columns, &tile, needs, centre.used);
+            if let Some((rows, _)) = eight {
+                let asked = asked_of(rows);
+                let offered = offered_to_one(pass, &asked, &wider.group, &tile, None);
+                sums.take(pass, &asked, &offered);
+                let Wider { group, gifts } = &mut wider;
+                let first = rows.first;
+                scatter_one(
+                    pass, columns, group, &tile, first, what, second, second, gifts,
+                );
+                continue;
             }
         }
         let Some(rows) = fours.next() else {

@@ -69,18 +69,14 @@ pub unsafe fn scatter<E: Points, const D: usize, const N: usize, B: Basis<N>, T:
     let mut wider = Wider::<E, D, N>::new();
     let mut fours = Fours(block.points());
     loop {
-        if let Some(rows) = wider.ahead(&fours, centre.used) {
-            // SAFETY: the rows belong to this block alone (module header), and the tile holds every node of their stencils
-            unsafe {
-                let place = columns.places::<E>(rows.first, E::LANES);
-                if wider.set(pass, &tile, &place, needs) {
-                    fours.drop_first(E::LANES);
-                    columns.prefetch::<E>(rows.first, affine, what.force);
-                    let Wider { group, gifts } = &mut wider;
-                    let first = rows.first;
-                    scatter_one(pass, columns, group, &tile, first, what, main, force, gifts);
-                    continue;
-                }
+        // SAFETY: the rows belong to this block alone (module header), and the tile holds every node of their stencils
+        unsafe {
+            let eight = wider.take(&mut fours, pass, columns, &tile, needs, centre.used);
+            if let Some((Rows { first, .. }, _)) = eight {
+                columns.prefetch::<E>(first, affine, what.force);
+                let Wider { group, gifts } = &mut wider;
+                scatter_one(pass, columns, group, &tile, first, what, main, force, gifts);
+                continue;
             }
         }
         let Some(rows) = fours.next() else {

@@ -2,7 +2,7 @@
 
 use super::group::{Fours, Group, Needs, Rows, start_together};
 use super::same::Gifts;
-use super::{Pass, Tile};
+use super::{Columns, Pass, Tile};
 use crate::basis::Basis;
 use crate::solver::lane::Points;
 use crate::transfer::Transfer;
@@ -27,30 +27,37 @@ impl<E: Points, const D: usize, const N: usize> Wider<E, D, N> {
         }
     }
 
-    /// The next rows, if there are as many as go into this group and they do not need the nodes of the middle of their cells as well.
+    /// Takes the next rows, if there are as many as go into this group and they have the same nodes: `group` has their stencils then, and
+    /// here are their places, m. Points that need the nodes of the `middle` of their cells as well are left alone.
+    ///
+    /// # Safety
+    /// No other thread writes to these rows meanwhile.
     #[inline(always)]
-    pub(super) fn ahead(&self, fours: &Fours, middle: bool) -> Option<Rows> {
-        if Self::USED && !middle {
-            fours.ahead(E::LANES)
-        } else {
-            None
-        }
-    }
-
-    /// The stencils of points at the given places, m, if they have the same nodes.
-    #[inline(always)]
-    pub(super) fn set<B: Basis<N>, T: Transfer>(
+    #[allow(clippy::too_many_arguments)]
+    pub(super) unsafe fn take<B: Basis<N>, T: Transfer>(
         &mut self,
+        fours: &mut Fours,
         pass: &Pass<D, B, T>,
+        columns: &Columns<D>,
         tile: &Tile<D>,
-        place: &[E; D],
         needs: Needs,
-    ) -> bool {
-        // most that fail do so along the first axis
-        if !start_together(pass, place) {
-            return false;
+        middle: bool,
+    ) -> Option<(Rows, [E; D])> {
+        if !Self::USED || middle {
+            return None;
         }
-        self.group.set(pass, tile, place, needs);
-        self.group.same
+        let rows = fours.ahead(E::LANES)?;
+        // SAFETY: as the caller says
+        let place = unsafe { columns.places::<E>(rows.first, E::LANES) };
+        // most that fail do so along the first axis
+        if !start_together(pass, &place) {
+            return None;
+        }
+        self.group.set(pass, tile, &place, needs);
+        if !self.group.same {
+            return None;
+        }
+        fours.drop_first(E::LANES);
+        Some((rows, place))
     }
 }
