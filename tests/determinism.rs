@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{NEO_HOOKEAN, Scene, list, texts, variants};
+use common::{NEO_HOOKEAN, Scene, Variant, list, texts, variants};
 use mpm::run::{Computing, build_with};
 use mpm::scenario::Scenario;
 use mpm::solver::Account;
@@ -210,4 +210,51 @@ fn a_law_without_memory() {
     let mut scene = two_boxes(2);
     scene.law = "linear_elastic = { youngs_modulus = 100, poissons_ratio = 0.3 }".into();
     same_on_any_number_of_threads(&scene);
+}
+
+/// So many that blocks are large ones.
+#[test]
+fn many_points() {
+    let mut scene = two_boxes(3);
+    scene.rest = "[[body]]\nname = \"left\"\nmaterial = \"stuff\"\nparticles_per_cell = 2\n\
+                  shape.box = { min = [6, 5.5, 6], max = [40, 39.5, 40] }\n\
+                  velocity = [\"-35 + 0.1 * x\", \"2\", \"20\"]\n"
+        .into();
+    scene.cells = [46; 3];
+    let variant = Variant {
+        basis: "quadratic",
+        transfer: "\"mls_apic\"".into(),
+        update: "usl",
+        frame: "updated",
+    };
+    let scenario = scene.scenario(&variant);
+    let run = |threads: usize| {
+        let computing = Computing {
+            parallel: Some(threads > 1),
+            portable: false,
+        };
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads can be started").install(|| {
+            let mut scene = build_with::<3>(&scenario, &computing);
+            let (state, solver) = (&mut scene.state, &mut scene.solver);
+            solver
+                .start(state)
+                .unwrap_or_else(|fault| panic!("{fault}"));
+            let before = order(state);
+            for _ in 0..5 {
+                solver
+                    .step(state, 0.01)
+                    .unwrap_or_else(|fault| panic!("{fault}"));
+            }
+            assert!(before != order(state), "points were never re-sorted");
+            let p = &mut state.bodies[0].particles;
+            let vectors = p.position.iter().chain(&p.velocity).flatten();
+            let numbers = vectors.chain(p.affine.iter().flatten()).chain(&p.stress);
+            numbers.map(|number| number.to_bits()).collect::<Vec<_>>()
+        })
+    };
+    let alone = run(1);
+    for threads in [2, 3, 7] {
+        assert!(run(threads) == alone, "{threads} threads give other bits");
+    }
 }

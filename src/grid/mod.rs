@@ -53,8 +53,8 @@ impl<const D: usize> Geometry<D> {
     }
 }
 
-/// Nodes along an edge of a block. A stencil of `n` nodes whose point has strayed up to one cell from its block must stay
-/// clear of the next block of the same colour, two blocks on: the edge has to exceed `n`.
+/// Nodes along an edge of a block of few points. A stencil of `n` nodes whose point has strayed up to one cell from its block
+/// must stay clear of the next block of the same colour, two blocks on: the edge has to exceed `n`.
 pub const fn block_edge(dimension: usize, n: usize) -> i32 {
     match dimension {
         1 => 64,
@@ -63,8 +63,12 @@ pub const fn block_edge(dimension: usize, n: usize) -> i32 {
             if n <= 3 {
                 4
             } else {
-                8
+                LARGE_EDGE
             }
         }
     }
 }
+
+/// Nodes along an edge of a block in 3D where points are many and fill their blocks: columns are then read in longer pieces, and
+/// nodes at faces of blocks, which several colours add to, are fewer.
+pub const LARGE_EDGE: i32 = 8;

@@ -6,7 +6,7 @@ use super::integrate::Constraint;
 use super::kernels::Kernels;
 use super::mpm::Mpm;
 use super::{Fault, Place};
-use crate::grid::{Geometry, Occupied, Row};
+use crate::grid::{Geometry, LARGE_EDGE, Occupied, Row, block_edge};
 use crate::math::Vector;
 use crate::reorder;
 use crate::state::{Body, Particles, State};
@@ -65,6 +65,13 @@ const MOST_CELLS: usize = 512;
 /// Points from which on sorting them is shared among threads.
 const PIECE: usize = 1 << 13;
 
+/// Points from which on large blocks are looked at: fewer leave the caches so little work that nothing is won.
+const MANY: usize = 1 << 18;
+
+/// Points that large blocks must hold on average. Blocks around them have as many nodes, which cost as much as these points when
+/// nobody fills them.
+const FILLED: usize = 256;
+
 impl<const D: usize> Mpm<D> {
     /// Sorts all bodies by block and lays the grid out around them.
     ///
@@ -74,6 +81,7 @@ impl<const D: usize> Mpm<D> {
         let mut scratch = std::mem::take(&mut self.scratch);
         scratch.occupied.resize_with(state.bodies.len(), Vec::new);
         let (time, step) = (state.time, state.step);
+        self.choose_edge(state, &mut scratch);
         let mut result = Ok(());
         for (index, body) in state.bodies.iter_mut().enumerate() {
             result = self
@@ -135,21 +143,8 @@ impl<const D: usize> Mpm<D> {
             occupied,
         } = scratch;
         let count = body.particles.len();
-        let threads = if self.parallel {
-            rayon::current_num_threads()
-        } else {
-            1
-        };
-        let size = count.div_ceil(threads).max(PIECE);
-        pieces.resize_with(count.div_ceil(size).max(pieces.len()), Piece::default);
+        let size = self.collect_blocks(index, &body.particles, keys, pieces)?;
         let pieces = &mut pieces[..count.div_ceil(size)];
-        self.find_blocks(index, &body.particles, size, pieces)?;
-        keys.clear();
-        for piece in &mut *pieces {
-            keys.extend_from_slice(&piece.keys);
-        }
-        keys.sort_unstable();
-        keys.dedup();
         slots.resize(count, 0);
         self.count_blocks(index, &body.particles, size, keys, pieces, slots);
         let blocks = &mut occupied[index];
@@ -243,6 +238,59 @@ impl<const D: usize> Mpm<D> {
         } else {
             blocks.iter().for_each(order_one);
         }
+    }
+
+    /// Edge of the blocks for points as they stand: a large one where they are many and fill such blocks.
+    fn choose_edge(&mut self, state: &State<D>, scratch: &mut Scratch<D>) {
+        let least = block_edge(D, self.kernels.nodes());
+        let points: usize = state.bodies.iter().map(|body| body.particles.len()).sum();
+        self.edge = least;
+        if D < 3 || points < MANY {
+            return;
+        }
+        self.edge = LARGE_EDGE;
+        let (keys, pieces) = (&mut scratch.keys, &mut scratch.pieces);
+        let mut blocks = 0;
+        for (index, body) in state.bodies.iter().enumerate() {
+            // a point without a place is for the sort to name
+            if self
+                .collect_blocks(index, &body.particles, keys, pieces)
+                .is_ok()
+            {
+                blocks += keys.len();
+            }
+        }
+        if points < FILLED * blocks {
+            self.edge = least;
+        }
+    }
+
+    /// Finds the blocks that a body occupies, in order, looking at pieces of it of a size that it returns; or names the first row
+    /// whose point has no place in the grid.
+    fn collect_blocks(
+        &self,
+        index: usize,
+        particles: &Particles<D>,
+        keys: &mut Vec<[i32; D]>,
+        pieces: &mut Vec<Piece<D>>,
+    ) -> Result<usize, usize> {
+        let count = particles.len();
+        let threads = if self.parallel {
+            rayon::current_num_threads()
+        } else {
+            1
+        };
+        let size = count.div_ceil(threads).max(PIECE);
+        pieces.resize_with(count.div_ceil(size).max(pieces.len()), Piece::default);
+        let pieces = &mut pieces[..count.div_ceil(size)];
+        self.find_blocks(index, particles, size, pieces)?;
+        keys.clear();
+        for piece in &mut *pieces {
+            keys.extend_from_slice(&piece.keys);
+        }
+        keys.sort_unstable();
+        keys.dedup();
+        Ok(size)
     }
 
     /// Collects the blocks of each piece, or names the first row whose point has no place in the grid.

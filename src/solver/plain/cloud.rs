@@ -1,7 +1,7 @@
 //! Points for the comparison of kernels: all over the grid, with random content.
 
 use super::*;
-use crate::grid::{Blocks, block_edge};
+use crate::grid::{Blocks, LARGE_EDGE, block_edge};
 use crate::solver::kernels::Kernels;
 use crate::solver::stencil::Reach;
 
@@ -27,6 +27,8 @@ pub(super) struct Kind {
     pub domains: bool,
     /// Whether some nodes have no mass.
     pub gaps: bool,
+    /// Whether blocks are those of many points.
+    pub large: bool,
 }
 
 impl Kind {
@@ -37,9 +39,20 @@ impl Kind {
             total: k & 2 == 2,
             domains,
             gaps: false,
+            large: k & 4 == 4,
         };
-        let every = (0..4).map(kind);
-        every.filter(|kind| D == 2 || !kind.axisymmetric).collect()
+        let exists =
+            |kind: &Self| (D == 2 || !kind.axisymmetric) && (D == 3 && !kind.total || !kind.large);
+        (0..8).map(kind).filter(exists).collect()
+    }
+
+    /// Nodes along an edge of a block, for stencils of `n` nodes.
+    pub(super) fn edge<const D: usize>(&self, n: usize) -> i32 {
+        if self.large {
+            LARGE_EDGE
+        } else {
+            block_edge(D, n)
+        }
     }
 
     /// Small cells and places that are no round numbers; the axis of an axisymmetric grid is at zero.
@@ -66,7 +79,7 @@ pub(super) fn points<const D: usize>(
         domains,
         ..
     } = kind;
-    let edge = block_edge(D, kernels.nodes());
+    let edge = kind.edge::<D>(kernels.nodes());
     let h = geometry.cell_size;
     let count = [300, 500, 700][D - 1];
     let place = |random: &mut Random, i: usize| -> [f64; D] {

@@ -3,7 +3,7 @@
 use super::cloud::{Kind, Random, points};
 use super::*;
 use crate::basis::{BasisChoice, BasisVisitor, Linear};
-use crate::grid::{Blocks, Node, block_edge};
+use crate::grid::{Blocks, Node};
 use crate::real::Instructions;
 use crate::solver::kernels::{Context, Kernels, Stencils};
 use crate::solver::stencil::{CHUNK, Columns, Rates, Reach, Sources, Tile};
@@ -132,7 +132,7 @@ impl EveryPass<'_> {
         let affine = kernels.affine();
         let mut random = Random(0x9E37_79B9_7F4A_7C15 + D as u64);
         let (mut fast, blocks) = points(geometry, kernels, affine, kind, &mut random);
-        let edge = block_edge(D, kernels.nodes());
+        let edge = kind.edge::<D>(kernels.nodes());
         let context = Context {
             geometry,
             body: 0,
