@@ -65,7 +65,8 @@ const MOST_CELLS: usize = 512;
 /// Points from which on sorting them is shared among threads.
 const PIECE: usize = 1 << 13;
 
-/// Points from which on large blocks are looked at: fewer leave the caches so little work that nothing is won.
+/// Points from which on large blocks are looked at, where the grid has one array, and four times as many where it has more: fewer
+/// leave the caches so little work that nothing is won, and large blocks take more memory a point.
 const MANY: usize = 1 << 18;
 
 /// Points that large blocks must hold on average. Blocks around them have as many nodes, which cost as much as these points when
@@ -244,8 +245,11 @@ impl<const D: usize> Mpm<D> {
     fn choose_edge(&mut self, state: &State<D>, scratch: &mut Scratch<D>) {
         let least = block_edge(D, self.kernels.nodes());
         let points: usize = state.bodies.iter().map(|body| body.particles.len()).sum();
+        // each array of the grid has nodes of blocks that no point fills
+        let one_array = !(self.kernels.change() || self.has_second() || self.has_terms());
+        let many = if one_array { MANY } else { 4 * MANY };
         self.edge = least;
-        if D < 3 || points < MANY {
+        if D < 3 || points < many {
             return;
         }
         self.edge = LARGE_EDGE;
