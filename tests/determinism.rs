@@ -217,10 +217,10 @@ fn a_law_without_memory() {
 fn many_points() {
     let mut scene = two_boxes(3);
     scene.rest = "[[body]]\nname = \"left\"\nmaterial = \"stuff\"\nparticles_per_cell = 2\n\
-                  shape.box = { min = [6, 5.5, 6], max = [40, 39.5, 40] }\n\
+                  shape.box = { min = [6, 5.5, 6], max = [52, 51.5, 52] }\n\
                   velocity = [\"-35 + 0.1 * x\", \"2\", \"20\"]\n"
         .into();
-    scene.cells = [46; 3];
+    scene.cells = [58; 3];
     let variant = Variant {
         basis: "quadratic",
         transfer: "\"mls_apic\"".into(),

@@ -67,7 +67,7 @@ const PIECE: usize = 1 << 13;
 
 /// Points from which on large blocks are looked at, where the grid has one array, and four times as many where it has more: fewer
 /// leave the caches so little work that nothing is won, and large blocks take more memory a point.
-const MANY: usize = 1 << 18;
+const MANY: usize = 750_000;
 
 /// Points that large blocks must hold on average. Blocks around them have as many nodes, which cost as much as these points when
 /// nobody fills them.
