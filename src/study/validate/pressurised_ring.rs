@@ -11,6 +11,7 @@
 //! this exactly, for their functions reproduce x: the mean of the in-plane stresses is −p on any grid, however the single ones scatter.
 
 use super::compare::{chart, curve};
+use super::problem::{Layout, Problem, displacement_error};
 use super::{Case, CaseError, Report, set};
 use crate::observe::Point;
 use crate::report::{LineChart, Style};
@@ -21,6 +22,39 @@ pub const CASE: Case = Case {
     claim: "a pressure on curved surfaces gives Lamé's state in a ring, and its own value in a disc",
     reference: "closed forms: Lamé's thick cylinder in plane strain; mean stress of a body at rest",
     run,
+};
+
+/// The ring, at rest under its pressure.
+pub const PROBLEM: Problem = Problem {
+    name: "pressurised_ring",
+    about: "a thick ring in plane strain, whose rims follow no grid line, widens under a pressure in its bore",
+    norm: "displacement at rest, relative L2 norm",
+    reference: "closed form: Lamé's thick cylinder in plane strain",
+    cells_are: "over the wall of the ring",
+    dimensions: &[2],
+    layout: |_, cells| Layout {
+        text: SCENARIO.into(),
+        overrides: vec![
+            format!("grid.cell_size={:e}", (OUTER - INNER) / f64::from(cells)),
+            // a whole number of cells, whatever their size
+            "grid.max=[0.3, 0.3]".into(),
+            "output.every=\"1 ms\"".into(),
+        ],
+    },
+    error: |run| {
+        displacement_error(run, |&[x, y, _], time| {
+            if time == 0.0 {
+                return [0.0; 3];
+            }
+            let radius = x.hypot(y);
+            let stretch = Polar::exact(radius).displacement / radius;
+            [stretch * x, stretch * y, 0.0]
+        })
+    },
+    cells: |_| &[4, 8, 12, 16],
+    points: &[2, 3],
+    doubt: 0.0,
+    expected: &[],
 };
 
 const SCENARIO: &str = include_str!("../../../scenarios/pressurised_ring.toml");

@@ -1,7 +1,8 @@
 //! Cases that can be set up at any resolution and measured against their answer: what speed is charted over.
 
 use super::{
-    Recorded, bar1d, beam, cantilever, column, large_bar, manufactured, vibration, vortex, wave,
+    Recorded, bar1d, beam, cantilever, column, large_bar, manufactured, pressurised_ring,
+    vibration, vortex, wave,
 };
 
 /// A case at any resolution, and how wrong a run of it is.
@@ -64,6 +65,7 @@ pub const PROBLEMS: &[&Problem] = &[
     &vortex::PROBLEM,
     &beam::PROBLEM,
     &cantilever::PROBLEM,
+    &pressurised_ring::PROBLEM,
 ];
 
 /// Second order for smooth motion, in which no point leaves its cell.
