@@ -19,8 +19,8 @@ pub struct Particles<const D: usize> {
     pub mass: Masses,
     /// Kirchhoff stress τ = J σ, Pa, packed: `D (D + 1) / 2` numbers a point.
     pub stress: Vec<f64>,
-    /// Deformation gradient F = ∂x/∂X in the modelled directions; empty in the updated frame, unless points have domains that
-    /// deform with them.
+    /// Deformation gradient F = ∂x/∂X in the modelled directions: in the total frame if the law does not remember it or the basis
+    /// needs it, in the updated frame if points have domains that deform with them; else empty.
     pub deformation_gradient: Vec<Matrix<D>>,
     /// First Piola–Kirchhoff stress P = τ F⁻ᵀ in the modelled directions, Pa; empty in the updated frame.
     pub first_piola_stress: Vec<Matrix<D>>,
@@ -108,12 +108,7 @@ impl<const D: usize> Particles<D> {
             && self.mass.len() == count
             && self.stress.len() == packed_len(D) * count
             && self.reference_position.len() == total
-            && self.deformation_gradient.len()
-                == if self.deformation_gradient.is_empty() {
-                    total
-                } else {
-                    count
-                }
+            && (self.deformation_gradient.is_empty() || self.deformation_gradient.len() == count)
             && self.first_piola_stress.len() == total
             && self.affine.len() == if affine { count } else { 0 }
             && self.hoop_stress.len() == hoops
@@ -265,6 +260,16 @@ pub struct Body<const D: usize> {
 }
 
 impl<const D: usize> Body<D> {
+    /// F of the point in row `p` of a body in the total frame, which keeps it unless the law remembers it.
+    ///
+    /// # Panics
+    /// If neither does.
+    pub fn deformation_gradient(&self, p: usize) -> Matrix<D> {
+        let kept = self.particles.deformation_gradient.get(p).copied();
+        kept.or_else(|| self.material.deformation_gradient(p))
+            .expect("F is remembered by the law or kept beside it")
+    }
+
     /// The Cauchy stress of point `p`, Pa, in the modelled directions.
     pub fn cauchy_stress(&self, p: usize) -> Matrix<D> {
         let width = packed_len(D);

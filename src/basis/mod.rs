@@ -171,6 +171,11 @@ macro_rules! bases {
                 match self { $(Self::$basis(_) => kind!(has $($domains)?)),* }
             }
 
+            /// Whether changes of volume are those at the middle of the cell, see [`Basis::dilation_at_centre`].
+            pub fn dilation_at_centre(&self) -> bool {
+                match self { $(Self::$basis(basis) => Basis::<$n>::dilation_at_centre(basis)),* }
+            }
+
             /// Calls the visitor with the basis and its number of nodes an axis.
             pub fn visit<V: BasisVisitor>(&self, visitor: V) -> V::Output {
                 match self { $(Self::$basis(basis) => kind!(visit visitor, basis, $n $($domains)?)),* }

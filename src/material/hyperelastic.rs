@@ -105,11 +105,30 @@ fn held<R: Real, const D: usize>(h: &Tensor<R, D>, hoop_stretch: R) -> Deformati
     }
 }
 
+impl<L: Hyperelastic> Held<L> {
+    /// The stress at the end of a step.
+    #[inline(always)]
+    fn stress<R: Real, const D: usize>(
+        &self,
+        h: &Tensor<R, D>,
+        step: &Kinematics<R, D>,
+    ) -> Stress<R, D> {
+        let deformation = held(h, step.hoop_stretch);
+        let possible = deformation.volume_change().greater(R::splat(-1.0));
+        self.law.stress(&deformation).defined_where(possible)
+    }
+}
+
 impl<const D: usize, L: Hyperelastic> Material<D> for Held<L> {
     type Memory<R: Real> = Tensor<R, D>;
 
     fn initial_memory(&self) -> Tensor<f64, D> {
         Tensor::zero()
+    }
+
+    #[inline(always)]
+    fn deformation_gradient<R: Real>(&self, h: &Tensor<R, D>) -> Option<Tensor<R, D>> {
+        Some(h.plus_diagonal(R::splat(1.0)))
     }
 
     #[inline(always)]
@@ -120,9 +139,19 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Held<L> {
         step: &Kinematics<R, D>,
     ) {
         *h = advance(h, step);
-        let deformation = held(h, step.hoop_stretch);
-        let possible = deformation.volume_change().greater(R::splat(-1.0));
-        *stress = self.law.stress(&deformation).defined_where(possible);
+        *stress = self.stress(h, step);
+    }
+
+    #[inline(always)]
+    fn update_stress_in_reference<R: Real>(
+        &self,
+        h: &mut Tensor<R, D>,
+        stress: &mut Stress<R, D>,
+        step: &Kinematics<R, D>,
+        _: &Tensor<R, D>,
+    ) {
+        *h = step.rate.scaled_plus(step.dt, *h);
+        *stress = self.stress(h, step);
     }
 
     #[inline]
@@ -163,6 +192,11 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Free<L> {
     }
 
     #[inline(always)]
+    fn deformation_gradient<R: Real>(&self, memory: &Deformation<R, D>) -> Option<Tensor<R, D>> {
+        Some(memory.gradient())
+    }
+
+    #[inline(always)]
     fn update_stress<R: Real>(
         &self,
         memory: &mut Deformation<R, D>,
@@ -170,6 +204,19 @@ impl<const D: usize, L: Hyperelastic> Material<D> for Free<L> {
         step: &Kinematics<R, D>,
     ) {
         memory.displacement_gradient = advance(&memory.displacement_gradient, step);
+        *stress = relax(&self.law, memory);
+    }
+
+    #[inline(always)]
+    fn update_stress_in_reference<R: Real>(
+        &self,
+        memory: &mut Deformation<R, D>,
+        stress: &mut Stress<R, D>,
+        step: &Kinematics<R, D>,
+        _: &Tensor<R, D>,
+    ) {
+        let h = &mut memory.displacement_gradient;
+        *h = step.rate.scaled_plus(step.dt, *h);
         *stress = relax(&self.law, memory);
     }
 

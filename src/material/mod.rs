@@ -18,7 +18,7 @@ pub use elasticity::Isotropic;
 pub use hyperelastic::Hyperelastic;
 pub use linear_elastic::StressRate;
 pub use numbers::{MOST, Numbers, one_by_one};
-pub use points::{Increments, MaterialPoints, Present, Rate, StressMut};
+pub use points::{Increments, MaterialPoints, Present, Rate, ReferenceMut, StressMut};
 
 use crate::input::{Parameters, Reader};
 use crate::real::{Mask, Real};
@@ -107,6 +107,12 @@ pub trait Material<const D: usize>: Clone + Send + Sync + 'static {
     /// The memory of an undeformed point.
     fn initial_memory(&self) -> Self::Memory<f64>;
 
+    /// F in the modelled directions, if the law remembers it: the total frame keeps one for the points of other laws only.
+    #[inline(always)]
+    fn deformation_gradient<R: Real>(&self, _: &Self::Memory<R>) -> Option<Tensor<R, D>> {
+        None
+    }
+
     /// Carries memory and stress of one point over one step. A point that cannot be (J ≤ 0) gets a stress of NaN.
     ///
     /// Written as for one point, it is run for four at once: branches become [`Real::select`], or go through [`one_by_one`].
@@ -118,6 +124,21 @@ pub trait Material<const D: usize>: Clone + Send + Sync + 'static {
         stress: &mut Stress<R, D>,
         step: &Kinematics<R, D>,
     );
+
+    /// [`Self::update_stress`] in the total frame: there the rate of `step` is Ḟ = ∂v/∂X, and `start` is F at the start of the step.
+    /// So L = Ḟ F⁻¹, of which the law's own F ← (I + Δt L) F makes F + Δt Ḟ. Laws that remember F have it for less.
+    #[inline(always)]
+    fn update_stress_in_reference<R: Real>(
+        &self,
+        memory: &mut Self::Memory<R>,
+        stress: &mut Stress<R, D>,
+        step: &Kinematics<R, D>,
+        start: &Tensor<R, D>,
+    ) {
+        let mut spatial = *step;
+        spatial.rate = step.rate * start.inverse();
+        self.update_stress(memory, stress, &spatial);
+    }
 
     /// Elastic energy stored in the point per initial volume, J/m³.
     fn energy(&self, memory: &Self::Memory<f64>, stress: &Stress<f64, D>, hoop_stretch: f64)

@@ -10,15 +10,50 @@ use crate::tensor::Tensor;
 use std::cell::UnsafeCell;
 use std::ops::Range;
 
-/// The Kirchhoff stresses of a block of points, Pa, to be carried over a step.
+/// The stresses of a block of points, Pa, to be carried over a step.
 pub struct StressMut<'a> {
-    /// Packed (see [`pack`](crate::math::pack)), D(D+1)/2 numbers a point.
+    /// Kirchhoff stresses, packed (see [`pack`](crate::math::pack)), D(D+1)/2 numbers a point.
     pub plane: &'a mut [f64],
     /// The hoop stress of each point; empty unless axisymmetric.
     pub hoop: &'a mut [f64],
+    /// What points have besides in the total frame; empty in the updated one.
+    pub reference: ReferenceMut<'a>,
 }
 
-/// The velocity gradient L of a point, 1/s: number a holds column a, ∂v/∂x_a, in its first `D` entries. The others may be
+/// What points of the total Lagrangian frame have for the grid, which lives in the reference configuration: D² numbers a point each,
+/// column by column.
+#[derive(Default)]
+pub struct ReferenceMut<'a> {
+    /// Deformation gradients F, to be carried over a step; may be empty if the law remembers them.
+    pub deformation: &'a mut [f64],
+    /// First Piola–Kirchhoff stresses P = τ F⁻ᵀ after the step, Pa: the internal work per initial volume is P : Ḟ = τ : Ḟ F⁻¹, so
+    /// that f_i = −Σ V₀ P ∇₀N_i.
+    pub first_piola: &'a mut [f64],
+}
+
+impl<'a> ReferenceMut<'a> {
+    /// The first numbers of each column, and the others.
+    pub(super) fn split_at(self, numbers: usize) -> (Self, Self) {
+        let part = |column: &'a mut [f64]| {
+            let numbers = numbers.min(column.len());
+            column.split_at_mut(numbers)
+        };
+        let (deformation, other_deformation) = part(self.deformation);
+        let (first_piola, other_first_piola) = part(self.first_piola);
+        (
+            Self {
+                deformation,
+                first_piola,
+            },
+            Self {
+                deformation: other_deformation,
+                first_piola: other_first_piola,
+            },
+        )
+    }
+}
+
+/// The velocity gradient of a point, 1/s: number a holds column a, ∂v/∂x_a, in its first `D` entries. The others may be
 /// anything, so that whoever has columns as lanes of four can store them as they are.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
@@ -29,12 +64,6 @@ impl<const D: usize> Rate<D> {
     pub(crate) fn numbers(rates: &[Self]) -> &[f64] {
         // SAFETY: a gradient is 4 D numbers without gaps
         unsafe { std::slice::from_raw_parts(rates.as_ptr().cast(), 4 * D * rates.len()) }
-    }
-
-    /// The same, to be changed.
-    pub(crate) fn numbers_mut(rates: &mut [Self]) -> &mut [f64] {
-        // SAFETY: as above
-        unsafe { std::slice::from_raw_parts_mut(rates.as_mut_ptr().cast(), 4 * D * rates.len()) }
     }
 }
 
@@ -51,7 +80,7 @@ impl<const D: usize> From<Matrix<D>> for Rate<D> {
 /// How a block of points deforms over one step.
 #[derive(Clone, Copy)]
 pub struct Increments<'a, const D: usize> {
-    /// Velocity gradients, 1/s.
+    /// Velocity gradients, 1/s: ∂v/∂x, or in the total frame Ḟ = ∂v/∂X.
     pub rates: &'a [Rate<D>],
     /// Hoop rates, 1/s; empty unless axisymmetric.
     pub hoop_rates: &'a [f64],
@@ -117,6 +146,9 @@ pub trait MaterialPoints<const D: usize>: Send + Sync {
 
     /// J of point `index`; `hoop_stretch` is 1 unless axisymmetric.
     fn volume_ratio(&self, index: usize, hoop_stretch: f64) -> f64;
+
+    /// F of point `index`, if the law remembers it.
+    fn deformation_gradient(&self, index: usize) -> Option<Matrix<D>>;
 
     /// Writes an upper estimate of ρ₀ c², Pa, of each point in `range`, see [`Material::stiffness`]; NaN where a point is turned
     /// inside out. The instructions are used as far as the processor has them.
@@ -261,6 +293,11 @@ impl<const D: usize, M: Material<D>> MaterialPoints<D> for Points<D, M> {
     fn volume_ratio(&self, index: usize, hoop_stretch: f64) -> f64 {
         self.material
             .volume_ratio(&self.memory(index), hoop_stretch)
+    }
+
+    fn deformation_gradient(&self, index: usize) -> Option<Matrix<D>> {
+        let f = self.material.deformation_gradient(&self.memory(index))?;
+        Some(Matrix::from_fn(|i, j| f[(i, j)]))
     }
 
     fn stiffness(

@@ -1,6 +1,8 @@
 //! The loop over points: four or eight together, with wide instructions where the processor has them.
 
-use super::{Increments, Kinematics, MOST, Material, Numbers, Rate, Stress, StressMut};
+use super::{
+    Increments, Kinematics, MOST, Material, Numbers, Rate, ReferenceMut, Stress, StressMut,
+};
 use crate::math::packed_len;
 use crate::real::{Instructions, Portable, Real, filled_up};
 use crate::tensor::Tensor;
@@ -25,22 +27,29 @@ impl<'a, const D: usize> Rows<'a, D> {
         let (memory, other_memory) = self.memory.split_at_mut(count * width);
         let (plane, other_plane) = self.stress.plane.split_at_mut(count * packed_len(D));
         let (hoop, other_hoop) = self.stress.hoop.split_at_mut(hoops);
-        let part =
-            |memory: &'a mut [f64], plane: &'a mut [f64], hoop: &'a mut [f64], rows, hoops| Rows {
-                memory,
-                stress: StressMut { plane, hoop },
-                increments: part_of(&increments, rows, hoops),
-            };
+        let (reference, other_reference) = self.stress.reference.split_at(count * D * D);
+        let stress = StressMut {
+            plane,
+            hoop,
+            reference,
+        };
+        let other_stress = StressMut {
+            plane: other_plane,
+            hoop: other_hoop,
+            reference: other_reference,
+        };
         let (all, all_hoops) = (increments.rates.len(), increments.hoop_rates.len());
         (
-            part(memory, plane, hoop, 0..count, 0..hoops),
-            part(
-                other_memory,
-                other_plane,
-                other_hoop,
-                count..all,
-                hoops..all_hoops,
-            ),
+            Rows {
+                memory,
+                stress,
+                increments: part_of(&increments, 0..count, 0..hoops),
+            },
+            Rows {
+                memory: other_memory,
+                stress: other_stress,
+                increments: part_of(&increments, count..all, hoops..all_hoops),
+            },
         )
     }
 }
@@ -76,6 +85,12 @@ pub(super) fn update<const D: usize, M: Material<D>>(
     assert!(hoops == 0 || hoops == count);
     assert_eq!(increments.hoop_rates.len(), hoops);
     assert_eq!(increments.hoop_stretches.len(), hoops);
+    let [deformations, references] = [
+        stress.reference.deformation.len(),
+        stress.reference.first_piola.len(),
+    ];
+    assert!(references == 0 || references == D * D * count);
+    assert!(deformations == 0 || deformations == references);
 
     let rows = Rows {
         memory,
@@ -92,10 +107,12 @@ pub(super) fn update<const D: usize, M: Material<D>>(
     }
     let Rows {
         memory: memory_left,
-        stress: StressMut {
-            plane: plane_left,
-            hoop: hoop_left,
-        },
+        stress:
+            StressMut {
+                plane: plane_left,
+                hoop: hoop_left,
+                reference: reference_left,
+            },
         increments:
             Increments {
                 rates: rates_left,
@@ -111,6 +128,9 @@ pub(super) fn update<const D: usize, M: Material<D>>(
     let hoop_stretches = filled_up::<GROUP>(hoop_stretches_left, 1);
     let rates: [Rate<D>; GROUP] = std::array::from_fn(|k| rates_left[k.min(left - 1)]);
     let group_hoops = GROUP.min(hoops * GROUP);
+    let mut deformation = filled_up::<{ GROUP * 9 }>(reference_left.deformation, D * D);
+    let mut first_piola = [0.0; GROUP * 9];
+    let numbers = |column: usize| (GROUP * D * D).min(column * GROUP);
     groups(
         material,
         Rows {
@@ -118,6 +138,10 @@ pub(super) fn update<const D: usize, M: Material<D>>(
             stress: StressMut {
                 plane: &mut plane[..GROUP * packed],
                 hoop: &mut hoop[..group_hoops],
+                reference: ReferenceMut {
+                    deformation: &mut deformation[..numbers(deformations)],
+                    first_piola: &mut first_piola[..numbers(references)],
+                },
             },
             increments: Increments {
                 rates: &rates,
@@ -131,6 +155,13 @@ pub(super) fn update<const D: usize, M: Material<D>>(
     plane_left.copy_from_slice(&plane[..left * packed]);
     let hoops_left = hoop_left.len();
     hoop_left.copy_from_slice(&hoop[..hoops_left]);
+    let ReferenceMut {
+        deformation: deformation_left,
+        first_piola: first_piola_left,
+    } = reference_left;
+    let [deformations_left, references_left] = [deformation_left.len(), first_piola_left.len()];
+    deformation_left.copy_from_slice(&deformation[..deformations_left]);
+    first_piola_left.copy_from_slice(&first_piola[..references_left]);
 }
 
 /// Whole groups of points.
@@ -172,15 +203,17 @@ pub(super) fn every_group<R: Real, const D: usize, M: Material<D>>(
     rows: Rows<'_, D>,
 ) {
     assert!(rows.increments.rates.len().is_multiple_of(R::LANES));
-    if rows.stress.hoop.is_empty() {
-        every_group_of::<R, D, M, false>(material, rows);
-    } else {
-        every_group_of::<R, D, M, true>(material, rows);
+    let hoops = !rows.stress.hoop.is_empty();
+    match (hoops, rows.stress.reference.first_piola.is_empty()) {
+        (false, true) => every_group_of::<R, D, M, false, false>(material, rows),
+        (false, false) => every_group_of::<R, D, M, false, true>(material, rows),
+        (true, true) => every_group_of::<R, D, M, true, false>(material, rows),
+        (true, false) => every_group_of::<R, D, M, true, true>(material, rows),
     }
 }
 
 #[inline(always)]
-fn every_group_of<R: Real, const D: usize, M: Material<D>, const HOOP: bool>(
+fn every_group_of<R: Real, const D: usize, M: Material<D>, const HOOP: bool, const TOTAL: bool>(
     material: &M,
     rows: Rows<'_, D>,
 ) {
@@ -188,12 +221,27 @@ fn every_group_of<R: Real, const D: usize, M: Material<D>, const HOOP: bool>(
     let packed = packed_len(D);
     let Rows {
         memory,
-        stress: StressMut { plane, hoop },
+        stress:
+            StressMut {
+                plane,
+                hoop,
+                reference:
+                    ReferenceMut {
+                        deformation,
+                        first_piola,
+                    },
+            },
         increments,
     } = rows;
     let dt = R::splat(increments.dt);
     assert_eq!(memory.len(), width * increments.rates.len());
     assert_eq!(plane.len(), packed * increments.rates.len());
+    // numbers of F that are kept for a point
+    let kept = if deformation.is_empty() { 0 } else { D * D };
+    if TOTAL {
+        assert_eq!(first_piola.len(), D * D * increments.rates.len());
+        assert!(kept == 0 || deformation.len() == first_piola.len());
+    }
     let mut numbers = [R::splat(0.0); MOST];
     let mut one = [R::splat(0.0)];
     for (group, rates) in increments.rates.chunks_exact(R::LANES).enumerate() {
@@ -246,7 +294,45 @@ fn every_group_of<R: Real, const D: usize, M: Material<D>, const HOOP: bool>(
         R::read_rows(memory, &mut numbers[..width]);
         let mut remembered = M::Memory::from_numbers(&numbers[..width]);
 
-        material.update_stress(&mut remembered, &mut stress, &step);
+        if TOTAL {
+            // SAFETY: as above
+            let (deformation, first_piola) = unsafe {
+                (
+                    deformation.get_unchecked_mut(first * kept..(first + R::LANES) * kept),
+                    first_piola.get_unchecked_mut(first * D * D..(first + R::LANES) * D * D),
+                )
+            };
+            R::prefetch(
+                deformation.as_ptr().wrapping_add(ahead * kept),
+                R::LANES * kept,
+            );
+            R::prefetch(
+                first_piola.as_ptr().wrapping_add(ahead * D * D),
+                R::LANES * D * D,
+            );
+            let numbers = &mut numbers[..D * D];
+            let start = match material.deformation_gradient(&remembered) {
+                Some(start) => start,
+                None => {
+                    R::read_rows(deformation, numbers);
+                    Tensor::from_columns(numbers)
+                }
+            };
+            material.update_stress_in_reference(&mut remembered, &mut stress, &step, &start);
+            let end = match material.deformation_gradient(&remembered) {
+                Some(end) => end,
+                None => step.rate.scaled_plus(dt, start),
+            };
+            if kept > 0 {
+                end.to_columns(numbers);
+                R::write_rows(deformation, numbers);
+            }
+            let piola = stress.plane * end.inverse().transpose();
+            piola.to_columns(numbers);
+            R::write_rows(first_piola, numbers);
+        } else {
+            material.update_stress(&mut remembered, &mut stress, &step);
+        }
 
         remembered.to_numbers(&mut numbers[..width]);
         R::write_rows(memory, &numbers[..width]);

@@ -114,8 +114,13 @@ fn build_body<const D: usize>(scenario: &Scenario, index: usize, set: &PointSet)
     } else {
         0
     };
-    let deforming = if scenario.method.basis.has_domains() {
+    let points = material.law.points(scenario.plane, count);
+    let basis = &scenario.method.basis;
+    let remembered = count > 0 && points.deformation_gradient(0).is_some();
+    let deforming = if basis.has_domains() {
         count
+    } else if remembered && !basis.dilation_at_centre() {
+        0
     } else {
         total
     };
@@ -147,7 +152,7 @@ fn build_body<const D: usize>(scenario: &Scenario, index: usize, set: &PointSet)
             },
             id: (0..count as u32).collect(),
         },
-        material: material.law.points(scenario.plane, count),
+        material: points,
         spacing: Vector::from_fn(|a, _| set.spacing[a]),
     }
 }

@@ -352,7 +352,8 @@ impl<const D: usize> Solver<D> for Mpm<D> {
     }
 
     fn angular_momentum(&self, state: &State<D>, body: usize) -> Vec<f64> {
-        let p = &state.bodies[body].particles;
+        let known = &state.bodies[body];
+        let p = &known.particles;
         let pairs: &[(usize, usize)] = match D {
             1 => &[],
             2 => &[(0, 1)],
@@ -368,11 +369,10 @@ impl<const D: usize> Solver<D> for Mpm<D> {
                 if let Some(affine) = p.affine.get(i) {
                     let place = &p.grid_position()[i];
                     let cells = self.geometry.in_cells(place, 1.0 / self.geometry.cell_size);
-                    let deformed = p.deformation_gradient.get(i);
                     let (frame, domain) = if p.is_total() {
-                        (deformed, None)
+                        (Some(known.deformation_gradient(i)), None)
                     } else {
-                        (None, deformed)
+                        (None, p.deformation_gradient.get(i))
                     };
                     let cell = &self.geometry.cells;
                     let inertia = self.kernels.inertia(body, &cells, domain, cell);

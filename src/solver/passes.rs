@@ -2,7 +2,6 @@
 //! order of additions at every node.
 
 use super::disjoint::Disjoint;
-use super::frame;
 use super::kernels::Context;
 use super::mpm::Mpm;
 use super::stencil::{CHUNK, Columns, Gathered, Rates, Reach, Scattered, Sources, Tile, Wanted};
@@ -272,10 +271,6 @@ impl<const D: usize> Mpm<D> {
             if what.rate {
                 // SAFETY: these rows belong to this block alone, and their gradients were just gathered
                 unsafe {
-                    if columns.is_total() {
-                        let (f, _) = columns.reference_columns(first, count);
-                        frame::deform(f, rates.of_mut(count), context.dt, context.instructions);
-                    }
                     let (plane, hoop, hoop_stretches) = columns.law_columns(first, count);
                     let (rates, hoop_rates) = rates.of(count, hoop_stretches.len());
                     let increments = Increments {
@@ -285,13 +280,12 @@ impl<const D: usize> Mpm<D> {
                         dt: context.dt,
                         instructions: context.instructions,
                     };
-                    let stress = StressMut { plane, hoop };
+                    let stress = StressMut {
+                        plane,
+                        hoop,
+                        reference: columns.reference(first, count),
+                    };
                     material.update(first..end, stress, &increments);
-                    if columns.is_total() {
-                        let (f, p) = columns.reference_columns(first, count);
-                        let (stress, _, _) = columns.law_columns(first, count);
-                        frame::pull_back::<D>(f, stress, p, context.instructions);
-                    }
                 }
             }
         }

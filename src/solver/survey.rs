@@ -1,6 +1,7 @@
 //! How stiff points are, for the time step.
 
 use super::frame;
+use crate::math::Matrix;
 use crate::real::Instructions;
 use crate::state::Body;
 use crate::totals::present;
@@ -26,7 +27,11 @@ pub(super) fn max_stiffness<const D: usize>(
         body.material
             .stiffness(rows.clone(), &present, instructions, found);
         if p.is_total() {
-            frame::seen_from_reference(&p.deformation_gradient[rows], found);
+            let mut gradients = [Matrix::identity(); GROUPS];
+            for (gradient, row) in gradients.iter_mut().zip(rows) {
+                *gradient = body.deformation_gradient(row);
+            }
+            frame::seen_from_reference(&gradients[..found.len()], found);
         }
         for stiffness in found {
             if stiffness.is_nan() {

@@ -318,6 +318,28 @@ impl<R: Real, const D: usize> Tensor<R, D> {
         inverse
     }
 
+    /// Reads a tensor column by column.
+    #[inline(always)]
+    pub fn from_columns(numbers: &[R]) -> Self {
+        let mut tensor = Self::zero();
+        for a in 0..D {
+            for i in 0..D {
+                tensor[(i, a)] = numbers[a * D + i];
+            }
+        }
+        tensor
+    }
+
+    /// Writes what [`Self::from_columns`] reads.
+    #[inline(always)]
+    pub fn to_columns(&self, numbers: &mut [R]) {
+        for a in 0..D {
+            for i in 0..D {
+                numbers[a * D + i] = self[(i, a)];
+            }
+        }
+    }
+
     /// Reads a symmetric tensor row by row from the diagonal on: xx, or xx, xy, yy, or xx, xy, xz, yy, yz, zz.
     #[inline(always)]
     pub fn from_packed(packed: &[R]) -> Self {

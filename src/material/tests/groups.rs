@@ -84,6 +84,7 @@ impl<const D: usize> Block<D> {
             let stress = StressMut {
                 plane: &mut self.stress[range.start * width..range.end * width],
                 hoop: &mut self.hoop[hoops],
+                reference: ReferenceMut::default(),
             };
             // SAFETY: nobody else knows these points.
             unsafe {

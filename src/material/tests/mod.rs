@@ -3,6 +3,7 @@
 mod groups;
 mod particular;
 mod point;
+mod reference;
 
 use super::*;
 use crate::math::Matrix;

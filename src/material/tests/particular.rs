@@ -103,6 +103,7 @@ fn blocks_of_points_may_be_updated_from_several_threads() {
                     let stress = StressMut {
                         plane,
                         hoop: &mut [],
+                        reference: ReferenceMut::default(),
                     };
                     // SAFETY: the blocks do not overlap.
                     unsafe { points.update(k * size..(k + 1) * size, stress, &increments) };
@@ -139,6 +140,7 @@ fn reordered_points_keep_their_memory() {
     let all = StressMut {
         plane: &mut stress,
         hoop: &mut [],
+        reference: ReferenceMut::default(),
     };
     // SAFETY: nobody else knows these points.
     unsafe { points.update(0..count, all, &increments) };

@@ -56,6 +56,7 @@ impl<const D: usize> Point<D> {
         let stress = StressMut {
             plane: &mut self.stress,
             hoop: &mut self.hoop,
+            reference: ReferenceMut::default(),
         };
         // SAFETY: nobody else knows this point.
         unsafe { self.points.update(0..1, stress, &increments) };

@@ -1,5 +1,6 @@
 //! The columns of a body's points, as threads share them.
 
+use crate::material::ReferenceMut;
 use crate::math::{Matrix, Vector, packed_len};
 use crate::real::MOST_LANES;
 use crate::solver::lane::{Lane, Points};
@@ -29,6 +30,8 @@ pub struct Columns<const D: usize> {
     pub(super) hoop_stress: *mut f64,
     pub(super) hoop_stretch: *mut f64,
     pub(super) axisymmetric: bool,
+    /// Whether there is a `deformation` for each point.
+    deforms: bool,
     /// Whether points stay where they are in the grid.
     pub(super) total: bool,
     /// Whether points have domains that deform with them, and how they have is in `deformation`.
@@ -74,6 +77,7 @@ impl<const D: usize> Columns<D> {
             hoop_stress: particles.hoop_stress.as_mut_ptr(),
             hoop_stretch: particles.hoop_stretch.as_mut_ptr(),
             axisymmetric: !particles.hoop_stretch.is_empty(),
+            deforms: !particles.deformation_gradient.is_empty(),
             total,
             convected: !total && !particles.deformation_gradient.is_empty(),
         }
@@ -312,22 +316,42 @@ impl<const D: usize> Columns<D> {
         }
     }
 
-    /// Deformation gradients and first Piola–Kirchhoff stresses of the given rows, D² numbers each, column by column.
+    /// What the given rows have in the total frame for their law; nothing in the updated one.
     ///
     /// # Safety
-    /// No other thread uses these rows meanwhile; the frame is total.
-    #[allow(clippy::mut_from_ref)] // the caller promises
-    pub unsafe fn reference_columns(&self, first: usize, count: usize) -> (&mut [f64], &mut [f64]) {
+    /// No other thread uses these rows meanwhile.
+    pub unsafe fn reference<'a>(&self, first: usize, count: usize) -> ReferenceMut<'a> {
+        if !self.total {
+            return ReferenceMut::default();
+        }
         let numbers = count * D * D;
+        let kept = if self.deforms { numbers } else { 0 };
         // SAFETY: the rows exist, a matrix is D² numbers without gaps, and the caller keeps everybody else away
         unsafe {
-            let f = self.deformation.add(first).cast();
+            let f = self
+                .deformation
+                .add(if self.deforms { first } else { 0 })
+                .cast();
             let p = self.first_piola.add(first).cast();
-            (
-                std::slice::from_raw_parts_mut(f, numbers),
-                std::slice::from_raw_parts_mut(p, numbers),
-            )
+            ReferenceMut {
+                deformation: std::slice::from_raw_parts_mut(f, kept),
+                first_piola: std::slice::from_raw_parts_mut(p, numbers),
+            }
         }
+    }
+
+    /// The deformation gradient of the point in row `p`.
+    ///
+    /// # Panics
+    /// If none is kept.
+    ///
+    /// # Safety
+    /// No other thread writes to this row meanwhile.
+    #[inline(always)]
+    pub(super) unsafe fn deformation(&self, p: usize) -> Matrix<D> {
+        assert!(self.deforms, "no deformation gradients are kept");
+        // SAFETY: the row exists, and the caller keeps writers away
+        unsafe { *self.deformation.add(p) }
     }
 
     /// The deformation gradient of the domain of the point in row `p`.

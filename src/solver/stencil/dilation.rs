@@ -128,7 +128,7 @@ unsafe fn volume_change<L: Lane, const D: usize>(
     let mut inverse = f;
     if columns.total {
         // SAFETY: the caller vouches for row p
-        f = unsafe { *columns.deformation.add(p) };
+        f = unsafe { columns.deformation(p) };
         let tensor = Tensor::<f64, D>::from(f).inverse();
         inverse = Matrix::from_fn(|i, a| tensor[(a, i)]);
     }

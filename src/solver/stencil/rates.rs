@@ -7,7 +7,7 @@ use std::mem::MaybeUninit;
 
 /// Velocity gradients of up to [`CHUNK`] points, set by the kernel that gathers them.
 pub struct Rates<const D: usize> {
-    /// L, 1/s.
+    /// ∂v/∂x, or Ḟ in the total frame, 1/s.
     gradient: [MaybeUninit<Rate<D>>; CHUNK],
     /// v_r / r, 1/s; only set in an axisymmetric scene.
     hoop: [MaybeUninit<f64>; CHUNK],
@@ -33,16 +33,6 @@ impl<const D: usize> Rates<D> {
         let rates: *const [MaybeUninit<f64>] = &self.hoop[..hoops];
         // SAFETY: MaybeUninit<T> has the layout of T, and the caller knows that these are set
         unsafe { (&*(gradients as *const [Rate<D>]), &*(rates as *const [f64])) }
-    }
-
-    /// The gradients of the first `count` points.
-    ///
-    /// # Safety
-    /// They were gathered.
-    pub unsafe fn of_mut(&mut self, count: usize) -> &mut [Rate<D>] {
-        let set: *mut [MaybeUninit<Rate<D>>] = &mut self.gradient[..count];
-        // SAFETY: as in `of`
-        unsafe { &mut *(set as *mut [Rate<D>]) }
     }
 
     /// Sets the gradients of as many points as there are lanes, given their columns.

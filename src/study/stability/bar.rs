@@ -151,7 +151,6 @@ impl Specimen {
                 field[(0, 0)] = affine;
             }
             if p.is_total() {
-                p.deformation_gradient[row][(0, 0)] = stretch;
                 p.first_piola_stress[row][(0, 0)] = stress / stretch;
             }
         }

@@ -228,7 +228,9 @@ impl<const D: usize> Block<D> {
                 }
             }
             if total {
-                p.deformation_gradient[row] = crate::math::Matrix::identity();
+                if let Some(deformed) = p.deformation_gradient.get_mut(row) {
+                    *deformed = crate::math::Matrix::identity();
+                }
                 p.first_piola_stress[row] =
                     crate::math::unpack(&p.stress[row * packed..][..packed]);
             }
