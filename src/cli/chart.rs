@@ -28,7 +28,7 @@ Examples:
   mpm chart --list                                cases, and what their error is
 
 The folder gets chart.csv (every run), orders.csv, chart_wall.png and chart_work.png. Wall time is the median of the repeats;
-work is steps x points x nodes in a stencil x passes, the same on every machine (frame total: 0.5, 1 and 3 nodes a point more in 1D, 2D, 3D).
+work is steps x points x nodes in a stencil x passes, the same on every machine (frame total: 0.1 to 2.4 nodes a point more, by law and dimension).
 Exit codes: 0 done, 1 no setting meets the tolerance, 2 the input is wrong, 3 the reference run went wrong, 74 a file or the system failed.";
 
 /// Options of `mpm chart`.
