@@ -18,7 +18,7 @@ pub use elasticity::Isotropic;
 pub use hyperelastic::Hyperelastic;
 pub use linear_elastic::StressRate;
 pub use numbers::{MOST, Numbers, one_by_one};
-pub use points::{Increments, MaterialPoints, Present, Rate, ReferenceMut, StressMut};
+pub use points::{FourRates, Increments, MaterialPoints, Present, ReferenceMut, StressMut};
 
 use crate::input::{Parameters, Reader};
 use crate::real::{Mask, Real};

@@ -53,27 +53,43 @@ impl<'a> ReferenceMut<'a> {
     }
 }
 
-/// The velocity gradient of a point, 1/s: number a holds column a, ∂v/∂x_a, in its first `D` entries. The others may be
-/// anything, so that whoever has columns as lanes of four can store them as they are.
+/// The velocity gradients of four points, 1/s: lane q of number i of column a is ∂v_i/∂x_a of point q. Where fewer points are left,
+/// the other lanes may hold anything.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-pub struct Rate<const D: usize>(pub [[f64; 4]; D]);
+pub struct FourRates<const D: usize>(pub [[[f64; 4]; D]; D]);
 
-impl<const D: usize> Rate<D> {
-    /// The numbers of some points' gradients, 4 D each.
+impl<const D: usize> FourRates<D> {
+    /// Numbers of four points.
+    pub(crate) const COUNT: usize = 4 * D * D;
+
+    /// The numbers of some points' gradients, [`Self::COUNT`] of each four.
     pub(crate) fn numbers(rates: &[Self]) -> &[f64] {
-        // SAFETY: a gradient is 4 D numbers without gaps
-        unsafe { std::slice::from_raw_parts(rates.as_ptr().cast(), 4 * D * rates.len()) }
+        // SAFETY: so many numbers without gaps
+        unsafe { std::slice::from_raw_parts(rates.as_ptr().cast(), Self::COUNT * rates.len()) }
     }
-}
 
-impl<const D: usize> From<Matrix<D>> for Rate<D> {
-    fn from(gradient: Matrix<D>) -> Self {
-        let mut columns = [[0.0; 4]; D];
-        for a in 0..D {
-            columns[a][..D].copy_from_slice(&gradient.data.0[a]);
-        }
-        Self(columns)
+    /// Gradients of points, and `others` in the lanes that are left.
+    #[cfg(test)]
+    pub(crate) fn of(points: &[Matrix<D>], others: f64) -> Vec<Self> {
+        let fours = points.chunks(4).map(|points| {
+            let mut four = [[[others; 4]; D]; D];
+            for (q, gradient) in points.iter().enumerate() {
+                for a in 0..D {
+                    for i in 0..D {
+                        four[a][i][q] = gradient[(i, a)];
+                    }
+                }
+            }
+            Self(four)
+        });
+        fours.collect()
+    }
+
+    /// The gradient of a point.
+    #[cfg(test)]
+    pub(crate) fn point(rates: &[Self], p: usize) -> Matrix<D> {
+        Matrix::from_fn(|i, a| rates[p / 4].0[a][i][p % 4])
     }
 }
 
@@ -81,7 +97,7 @@ impl<const D: usize> From<Matrix<D>> for Rate<D> {
 #[derive(Clone, Copy)]
 pub struct Increments<'a, const D: usize> {
     /// Velocity gradients, 1/s: ∂v/∂x, or in the total frame Ḟ = ∂v/∂X.
-    pub rates: &'a [Rate<D>],
+    pub rates: &'a [FourRates<D>],
     /// Hoop rates, 1/s; empty unless axisymmetric.
     pub hoop_rates: &'a [f64],
     /// Hoop stretches after the step; empty unless axisymmetric.

@@ -1,7 +1,7 @@
 //! The loop over points: four or eight together, with wide instructions where the processor has them.
 
 use super::{
-    Increments, Kinematics, MOST, Material, Numbers, Rate, ReferenceMut, Stress, StressMut,
+    FourRates, Increments, Kinematics, MOST, Material, Numbers, ReferenceMut, Stress, StressMut,
 };
 use crate::math::packed_len;
 use crate::real::{Instructions, Portable, Real, filled_up};
@@ -19,7 +19,12 @@ pub(super) struct Rows<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Rows<'a, D> {
-    /// The first `count` points of a law, and the others.
+    /// How many points.
+    fn count(&self) -> usize {
+        self.stress.plane.len() / packed_len(D)
+    }
+
+    /// The first `count` points of a law, a multiple of four, and the others.
     fn split_at<M: Material<D>>(self, count: usize) -> (Self, Self) {
         let width = <M::Memory<f64> as Numbers<f64>>::COUNT;
         let increments = self.increments;
@@ -38,30 +43,31 @@ impl<'a, const D: usize> Rows<'a, D> {
             hoop: other_hoop,
             reference: other_reference,
         };
-        let (all, all_hoops) = (increments.rates.len(), increments.hoop_rates.len());
+        let all_hoops = increments.hoop_rates.len();
+        let (four, fours) = (count / GROUP, increments.rates.len());
         (
             Rows {
                 memory,
                 stress,
-                increments: part_of(&increments, 0..count, 0..hoops),
+                increments: part_of(&increments, 0..four, 0..hoops),
             },
             Rows {
                 memory: other_memory,
                 stress: other_stress,
-                increments: part_of(&increments, count..all, hoops..all_hoops),
+                increments: part_of(&increments, four..fours, hoops..all_hoops),
             },
         )
     }
 }
 
-/// The increments of some rows, and of some of those that have hoops.
+/// The increments of some fours, and of some rows that have hoops.
 fn part_of<'a, const D: usize>(
     all: &Increments<'a, D>,
-    rows: Range<usize>,
+    fours: Range<usize>,
     hoops: Range<usize>,
 ) -> Increments<'a, D> {
     Increments {
-        rates: &all.rates[rows],
+        rates: &all.rates[fours],
         hoop_rates: &all.hoop_rates[hoops.clone()],
         hoop_stretches: &all.hoop_stretches[hoops],
         ..*all
@@ -78,9 +84,10 @@ pub(super) fn update<const D: usize, M: Material<D>>(
 ) {
     let width = <M::Memory<f64> as Numbers<f64>>::COUNT;
     let packed = packed_len(D);
-    let count = increments.rates.len();
-    assert_eq!(memory.len(), width * count);
+    let count = stress.plane.len() / packed;
     assert_eq!(stress.plane.len(), packed * count);
+    assert_eq!(memory.len(), width * count);
+    assert_eq!(increments.rates.len(), count.div_ceil(GROUP));
     let hoops = stress.hoop.len();
     assert!(hoops == 0 || hoops == count);
     assert_eq!(increments.hoop_rates.len(), hoops);
@@ -126,7 +133,12 @@ pub(super) fn update<const D: usize, M: Material<D>>(
     let mut hoop = filled_up::<GROUP>(hoop_left, 1);
     let hoop_rates = filled_up::<GROUP>(hoop_rates_left, 1);
     let hoop_stretches = filled_up::<GROUP>(hoop_stretches_left, 1);
-    let rates: [Rate<D>; GROUP] = std::array::from_fn(|k| rates_left[k.min(left - 1)]);
+    // the lanes that are left over may hold anything
+    let mut rates = rates_left[0];
+    for lanes in rates.0.as_flattened_mut() {
+        let last = lanes[left - 1];
+        lanes[left..].fill(last);
+    }
     let group_hoops = GROUP.min(hoops * GROUP);
     let mut deformation = filled_up::<{ GROUP * 9 }>(reference_left.deformation, D * D);
     let mut first_piola = [0.0; GROUP * 9];
@@ -144,7 +156,7 @@ pub(super) fn update<const D: usize, M: Material<D>>(
                 },
             },
             increments: Increments {
-                rates: &rates,
+                rates: &[rates],
                 hoop_rates: &hoop_rates[..group_hoops],
                 hoop_stretches: &hoop_stretches[..group_hoops],
                 ..*increments
@@ -188,7 +200,7 @@ fn wide<const D: usize, M: Material<D>>(material: &M, rows: Rows<'_, D>) {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
 fn widest<const D: usize, M: Material<D>>(material: &M, rows: Rows<'_, D>) {
-    let count = rows.increments.rates.len();
+    let count = rows.count();
     let (eights, four) = rows.split_at::<M>(count - count % 8);
     every_group::<crate::real::Avx512, D, M>(material, eights);
     every_group::<crate::real::Avx, D, M>(material, four);
@@ -202,7 +214,7 @@ pub(super) fn every_group<R: Real, const D: usize, M: Material<D>>(
     material: &M,
     rows: Rows<'_, D>,
 ) {
-    assert!(rows.increments.rates.len().is_multiple_of(R::LANES));
+    assert!(rows.count().is_multiple_of(R::LANES));
     let hoops = !rows.stress.hoop.is_empty();
     match (hoops, rows.stress.reference.first_piola.is_empty()) {
         (false, true) => every_group_of::<R, D, M, false, false>(material, rows),
@@ -234,18 +246,19 @@ fn every_group_of<R: Real, const D: usize, M: Material<D>, const HOOP: bool, con
         increments,
     } = rows;
     let dt = R::splat(increments.dt);
-    assert_eq!(memory.len(), width * increments.rates.len());
-    assert_eq!(plane.len(), packed * increments.rates.len());
+    let count = plane.len() / packed;
+    let rates = FourRates::numbers(increments.rates);
+    assert_eq!(memory.len(), width * count);
+    assert!(increments.rates.len() * GROUP >= count);
     // numbers of F that are kept for a point
     let kept = if deformation.is_empty() { 0 } else { D * D };
     if TOTAL {
-        assert_eq!(first_piola.len(), D * D * increments.rates.len());
+        assert_eq!(first_piola.len(), D * D * count);
         assert!(kept == 0 || deformation.len() == first_piola.len());
     }
     let mut numbers = [R::splat(0.0); MOST];
     let mut one = [R::splat(0.0)];
-    for (group, rates) in increments.rates.chunks_exact(R::LANES).enumerate() {
-        let first = group * R::LANES;
+    for first in (0..count / R::LANES).map(|group| group * R::LANES) {
         // SAFETY: the columns are as long as was just checked; checking every group costs a tenth of a simple law
         let (plane, memory) = unsafe {
             (
@@ -271,10 +284,12 @@ fn every_group_of<R: Real, const D: usize, M: Material<D>, const HOOP: bool, con
             hoop_stretch: R::splat(1.0),
             dt,
         };
+        let fours = FourRates::<D>::COUNT * R::LANES.div_ceil(GROUP);
+        let own = &rates[first / GROUP * FourRates::<D>::COUNT..][..fours];
         for a in 0..D {
-            R::read_strided(&Rate::numbers(rates)[4 * a..], 4 * D, &mut numbers[..D]);
             for i in 0..D {
-                step.rate[(i, a)] = numbers[i];
+                let at = GROUP * (a * D + i) + first % GROUP;
+                step.rate[(i, a)] = R::read_fours(&own[at..], FourRates::<D>::COUNT);
             }
         }
         R::read_rows(plane, &mut numbers[..packed]);

@@ -160,6 +160,12 @@ impl Real for Avx {
         }
     }
     #[inline(always)]
+    fn read_fours(from: &[f64], _: usize) -> Self {
+        assert!(from.len() >= 4);
+        // SAFETY: the numbers are there; AVX2 as for `Avx`
+        Self(unsafe { _mm256_loadu_pd(from.as_ptr()) })
+    }
+    #[inline(always)]
     fn write_strided(to: &mut [f64], stride: usize, numbers: &[Self]) {
         let width = numbers.len();
         assert!(to.len() >= 3 * stride + width);

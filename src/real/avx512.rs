@@ -138,7 +138,7 @@ unsafe fn write(to: *mut f64, stride: usize, numbers: &[Avx512]) {
 /// # Safety
 /// As there, but writable.
 #[inline(always)]
-pub(crate) unsafe fn write_pairs(pairs: __m512d, to: *mut f64, stride: usize) {
+unsafe fn write_pairs(pairs: __m512d, to: *mut f64, stride: usize) {
     // SAFETY: as the caller says
     unsafe {
         _mm_storeu_pd(to, _mm512_castpd512_pd128(pairs));
@@ -184,6 +184,16 @@ impl Real for Avx512 {
                 read(start, stride, numbers);
             }
         }
+    }
+    #[inline(always)]
+    fn read_fours(from: &[f64], stride: usize) -> Self {
+        assert!(from.len() >= stride + 4);
+        let from = from.as_ptr();
+        // SAFETY: the numbers are there; AVX-512 as for `Avx512`
+        Self(unsafe {
+            let low = _mm512_castpd256_pd512(_mm256_loadu_pd(from));
+            _mm512_insertf64x4::<1>(low, _mm256_loadu_pd(from.add(stride)))
+        })
     }
     #[inline(always)]
     fn write_strided(to: &mut [f64], stride: usize, numbers: &[Self]) {

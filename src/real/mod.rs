@@ -18,8 +18,6 @@ mod tests;
 pub use avx::Avx;
 #[cfg(target_arch = "x86_64")]
 pub use avx512::Avx512;
-#[cfg(target_arch = "x86_64")]
-pub(crate) use avx512::write_pairs;
 pub use portable::Portable;
 
 use std::fmt::Debug;
@@ -70,6 +68,12 @@ pub trait Real:
     /// # Panics
     /// As there.
     fn write_strided(to: &mut [f64], stride: usize, numbers: &[Self]);
+
+    /// Reads four numbers for each four lanes, those of the next four `stride` numbers after the first; a single lane reads one.
+    ///
+    /// # Panics
+    /// If the numbers are not there.
+    fn read_fours(from: &[f64], stride: usize) -> Self;
 
     /// [`Self::read_strided`] of rows that have no more numbers than these, one after the other.
     #[inline(always)]

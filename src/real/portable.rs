@@ -89,6 +89,10 @@ impl Real for Portable {
         }
     }
     #[inline(always)]
+    fn read_fours(from: &[f64], _: usize) -> Self {
+        Self([from[0], from[1], from[2], from[3]])
+    }
+    #[inline(always)]
     fn write_strided(to: &mut [f64], stride: usize, numbers: &[Self]) {
         assert!(to.len() >= 3 * stride + numbers.len());
         for (i, number) in numbers.iter().enumerate() {

@@ -34,6 +34,10 @@ impl Real for f64 {
         numbers.copy_from_slice(&from[..numbers.len()]);
     }
     #[inline(always)]
+    fn read_fours(from: &[f64], _: usize) -> Self {
+        from[0]
+    }
+    #[inline(always)]
     fn write_strided(to: &mut [f64], _: usize, numbers: &[Self]) {
         to[..numbers.len()].copy_from_slice(numbers);
     }

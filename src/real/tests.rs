@@ -130,6 +130,12 @@ fn rows<R: Real, const WIDTH: usize>() {
             assert_eq!(*number, expected);
         }
     }
+    // fours that lie apart
+    let fours: Vec<f64> = (0..stride + 4).map(|i| i as f64).collect();
+    let number = R::read_fours(&fours, stride);
+    for k in 0..R::LANES {
+        assert_eq!(number.lane(k), (k / 4 * stride + k % 4) as f64);
+    }
 }
 
 #[test]

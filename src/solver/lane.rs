@@ -35,11 +35,6 @@ pub trait Points: Real {
     /// # Safety
     /// `from` points to `count` readable numbers.
     unsafe fn load_some(from: *const f64, count: usize) -> Self;
-    /// Writes the two numbers of each point, those of one `stride` numbers after those of the one before.
-    ///
-    /// # Safety
-    /// All these places are writable.
-    unsafe fn store_strided(pairs: [Self; 2], to: *mut f64, stride: usize);
     /// Adds to each number of a node what all points give to it, first the sum of four points, then that of the next.
     ///
     /// # Safety
@@ -145,15 +140,6 @@ impl Points for Portable {
                 0.0
             }
         }))
-    }
-    #[inline(always)]
-    unsafe fn store_strided(pairs: [Self; 2], to: *mut f64, stride: usize) {
-        for q in 0..4 {
-            for a in 0..2 {
-                // SAFETY: the caller vouches for two numbers at each place
-                unsafe { *to.add(q * stride + a) = pairs[a].0[q] };
-            }
-        }
     }
     #[inline(always)]
     unsafe fn add_sums(given: [Self; 4], node: *mut f64) {

@@ -62,7 +62,8 @@ impl<const D: usize> Block<D> {
         ranges.map(|range| (range.clone(), hoops(&range))).collect()
     }
 
-    fn step(&mut self, how: How, rates: &[Rate<D>], hoop_rates: &[f64]) {
+    /// A step; `garbage` stands where there are no points.
+    fn step(&mut self, how: How, rates: &[Matrix<D>], hoop_rates: &[f64], garbage: f64) {
         let dt = 0.25;
         let hoop_rates = &hoop_rates[..self.hoop.len()];
         for (stretch, rate) in self.stretches.iter_mut().zip(hoop_rates) {
@@ -74,7 +75,7 @@ impl<const D: usize> Block<D> {
         };
         for (range, hoops) in self.parts(each) {
             let increments = Increments {
-                rates: &rates[range.clone()],
+                rates: &FourRates::of(&rates[range.clone()], garbage),
                 hoop_rates: &hoop_rates[hoops.clone()],
                 hoop_stretches: &self.stretches[hoops.clone()],
                 dt,
@@ -133,20 +134,15 @@ fn run<const D: usize>(law: &LawChoice, plane: Plane, how: How, garbage: f64) ->
     let mut block = Block::<D>::new(law, plane);
     let mut history = Vec::new();
     for step in 0..12 {
-        let mut rates: Vec<Rate<D>> = (0..COUNT)
-            .map(|k| Rate::from(numbers.matrix([0.4, 1e-6][k % 2])))
+        let mut rates: Vec<Matrix<D>> = (0..COUNT)
+            .map(|k| numbers.matrix([0.4, 1e-6][k % 2]))
             .collect();
         let hoop_rates: Vec<f64> = (0..COUNT).map(|_| 0.2 * numbers.next()).collect();
         if step == 11 {
-            rates[5] = Rate([[0.0; 4]; D]);
-            rates[5].0[0][0] = -6.0;
+            rates[5] = Matrix::zeros();
+            rates[5][(0, 0)] = -6.0;
         }
-        for rate in &mut rates {
-            for column in &mut rate.0 {
-                column[D..].fill(garbage);
-            }
-        }
-        block.step(how, &rates, &hoop_rates);
+        block.step(how, &rates, &hoop_rates, garbage);
         history.push(block.numbers(how));
     }
     history

@@ -82,9 +82,7 @@ fn blocks_of_points_may_be_updated_from_several_threads() {
     });
     let count = 1000;
     let mut numbers = Values(9);
-    let rates: Vec<Rate<2>> = (0..count)
-        .map(|_| Rate::from(numbers.matrix(0.1)))
-        .collect();
+    let rates: Vec<Matrix<2>> = (0..count).map(|_| numbers.matrix(0.1)).collect();
     let run = |blocks: usize| {
         let points = law.points::<2>(Plane::Stress, count);
         let mut stress = vec![0.0; 3 * count];
@@ -94,7 +92,7 @@ fn blocks_of_points_may_be_updated_from_several_threads() {
                 let (points, rates) = (&points, &rates[k * size..][..size]);
                 scope.spawn(move || {
                     let increments = Increments {
-                        rates,
+                        rates: &FourRates::of(rates, 0.0),
                         hoop_rates: &[],
                         hoop_stretches: &[],
                         dt: 1.0,
@@ -126,12 +124,10 @@ fn reordered_points_keep_their_memory() {
     });
     let count = 10;
     let mut points = law.points::<1>(Plane::Strain, count);
-    let rates: Vec<Rate<1>> = (0..count)
-        .map(|i| Rate::from(Matrix::from_element(i as f64)))
-        .collect();
+    let rates: Vec<Matrix<1>> = (0..count).map(|i| Matrix::from_element(i as f64)).collect();
     let mut stress = vec![0.0; count];
     let increments = Increments {
-        rates: &rates,
+        rates: &FourRates::of(&rates, 0.0),
         hoop_rates: &[],
         hoop_stretches: &[],
         dt: 1.0,

@@ -47,7 +47,7 @@ impl<const D: usize> Point<D> {
         self.hoop_stretch *= 1.0 + hoop;
         let hoops = self.hoop.len();
         let increments = Increments {
-            rates: &[(increment / dt).into()],
+            rates: &FourRates::of(&[increment / dt], f64::NAN),
             hoop_rates: &[hoop / dt][..hoops],
             hoop_stretches: &[self.hoop_stretch][..hoops],
             dt,

@@ -48,10 +48,8 @@ fn same_as_updated<const D: usize>() {
             for _ in 0..5 {
                 let given: Vec<Matrix<D>> = (0..COUNT).map(|_| values.matrix(0.2)).collect();
                 let spatial = given.iter().zip(&f).map(|(rate, f)| rate * inverse(f));
-                let of_frames: [Vec<Rate<D>>; 2] = [
-                    given.iter().map(|&rate| rate.into()).collect(),
-                    spatial.map(Rate::from).collect(),
-                ];
+                let spatial: Vec<Matrix<D>> = spatial.collect();
+                let of_frames = [&given, &spatial].map(|rates| FourRates::of(rates, f64::NAN));
                 let hoop_rates: Vec<f64> = (0..hoops).map(|_| 0.2 * values.next()).collect();
                 for (stretch, rate) in stretches.iter_mut().zip(&hoop_rates) {
                     *stretch *= 1.0 + dt * rate;

@@ -94,16 +94,6 @@ impl Points for Avx {
         })
     }
     #[inline(always)]
-    unsafe fn store_strided(pairs: [Self; 2], to: *mut f64, stride: usize) {
-        // SAFETY: module header
-        unsafe {
-            let pairs = pair_up(pairs);
-            for q in 0..4 {
-                _mm_storeu_pd(to.add(q * stride), pairs[q]);
-            }
-        }
-    }
-    #[inline(always)]
     unsafe fn add_sums(given: [Self; 4], node: *mut f64) {
         // SAFETY: module header
         unsafe {

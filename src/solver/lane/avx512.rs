@@ -6,7 +6,7 @@
 
 use super::{Lane, Points};
 use crate::real::MOST_LANES;
-use crate::real::{Avx, Avx512, Real, write_pairs};
+use crate::real::{Avx, Avx512, Real};
 use std::arch::x86_64::*;
 
 impl Points for Avx512 {
@@ -93,15 +93,6 @@ impl Points for Avx512 {
     unsafe fn load_some(from: *const f64, count: usize) -> Self {
         // SAFETY: module header
         Self(unsafe { _mm512_maskz_loadu_pd(0xff >> (8 - count), from) })
-    }
-    #[inline(always)]
-    unsafe fn store_strided([first, second]: [Self; 2], to: *mut f64, stride: usize) {
-        // SAFETY: module header
-        unsafe {
-            write_pairs(_mm512_unpacklo_pd(first.0, second.0), to, 2 * stride);
-            let odd = _mm512_unpackhi_pd(first.0, second.0);
-            write_pairs(odd, to.add(stride), 2 * stride);
-        }
     }
     #[inline(always)]
     unsafe fn add_sums(given: [Self; 4], node: *mut f64) {

@@ -61,16 +61,6 @@ fn every_method<P: Points>() {
         assert_eq!(whole[q] as usize, q);
     }
 
-    let stride = 7;
-    let mut written = vec![-1.0; (P::LANES - 1) * stride + 3];
-    // SAFETY: all these places are there
-    unsafe { P::store_strided([lane, lane + 100.0], written.as_mut_ptr(), stride) };
-    for (i, number) in written.iter().enumerate() {
-        let q = (i / stride) as f64;
-        let expected = [q, q + 100.0];
-        assert_eq!(*number, *expected.get(i % stride).unwrap_or(&-1.0));
-    }
-
     let mut node = Node([0.5, 1.5, 2.5, 3.5]);
     let given = [lane, lane * 10.0, lane * 100.0, lane * 1000.0];
     // SAFETY: a node is four numbers, aligned

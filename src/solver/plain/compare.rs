@@ -4,6 +4,7 @@ use super::cloud::{Kind, Random, points};
 use super::*;
 use crate::basis::{BasisChoice, BasisVisitor, Linear};
 use crate::grid::{Blocks, Node};
+use crate::material::FourRates;
 use crate::real::Instructions;
 use crate::solver::kernels::{Context, Kernels, Stencils};
 use crate::solver::stencil::{CHUNK, Columns, Rates, Reach, Sources, Tile};
@@ -233,7 +234,7 @@ impl EveryPass<'_> {
                         let hoops_here = if kind.axisymmetric { rows_here } else { 0 };
                         // SAFETY: just gathered
                         let (set, hoop) = unsafe { rates.of(rows_here, hoops_here) };
-                        gradients.extend_from_slice(set);
+                        gradients.extend((0..rows_here).map(|p| FourRates::point(set, p)));
                         hoops.extend_from_slice(hoop);
                     }
                 }
@@ -241,10 +242,7 @@ impl EveryPass<'_> {
             if rate {
                 self.agree(
                     &name,
-                    gradients
-                        .iter()
-                        .flat_map(|rate| &rate.0)
-                        .flat_map(|column| &column[..D]),
+                    gradients.iter().flatten(),
                     plain_rates.iter().flat_map(|(gradient, _)| gradient),
                 );
                 if kind.axisymmetric {
