@@ -240,6 +240,8 @@ fn many_points() {
             solver
                 .start(state)
                 .unwrap_or_else(|fault| panic!("{fault}"));
+            // nodes 5 to 53 an axis, seven blocks of eight with one around them; of four they would be fifteen
+            assert_eq!(solver.stored_nodes(), 9_usize.pow(3) * 512);
             let before = order(state);
             for _ in 0..5 {
                 solver
