@@ -6,6 +6,7 @@ use super::*;
 use crate::basis::Cpdi;
 use crate::real::Instructions;
 use crate::solver::Domains;
+use crate::solver::kernels::Kernels;
 use crate::transfer::{Apic, Flip, MlsApic, Pic, Tpic, Transfer};
 use std::cell::Cell;
 
@@ -124,8 +125,13 @@ fn alone<const D: usize>(f: Matrix<D>, x: Vector<D>) -> (Geometry<D>, Particles<
     (geometry, p)
 }
 
-/// Σ φ = 1, Σ φ x_i = x, Σ ∇φ = 0, Σ x_i ∇φᵀ = I.
+/// Σ φ = 1, Σ φ x_i = x, Σ ∇φ = 0, Σ x_i ∇φᵀ = I; and Σ φ (x_i − x)(x_i − x)ᵀ is what the angular momentum of C counts.
 fn complete<const D: usize>() {
+    let half = |a: usize| Cpdi::default().for_spacing(SPACING[a]);
+    let kernels = Domains::<D, Apic> {
+        basis: vec![std::array::from_fn(half)],
+        transfer: Apic,
+    };
     for k in 0..200 {
         let number = |n: usize| ((k * 37 + n) as f64 * 0.618_033_988_75).fract() - 0.5;
         // up to far beyond what a domain may be, and turned by any angle
@@ -145,6 +151,16 @@ fn complete<const D: usize>() {
         assert!(zero.amax() < 1e-14 * scale, "{D}D: {zero}");
         let unit = (unit - Matrix::identity()).amax();
         assert!(unit < 1e-13 * scale, "{D}D: {unit:e}");
+        let per_cell = 1.0 / geometry.cell_size;
+        let moments: Matrix<D> = nodes
+            .iter()
+            .map(|k| k.arm * k.arm.transpose() * (k.weight * per_cell * per_cell))
+            .sum();
+        let x = geometry.in_cells(&p.position[0], per_cell);
+        let deformed = p.deformation_gradient.first();
+        let inertia = kernels.inertia(0, &x, deformed, &geometry.cells);
+        let off = (inertia - moments).amax() / moments.amax();
+        assert!(off < 1e-13, "{D}D: {off:e}");
     }
 }
 
