@@ -118,6 +118,41 @@ impl EveryPass<'_> {
         }
     }
 
+    /// Forces on every third point, N, that act beside it.
+    fn check_forces<const D: usize>(
+        &self,
+        kernels: &dyn Kernels<D>,
+        context: &Context<'_, D>,
+        name: &str,
+        knows: &Knows<'_, D>,
+        blocks: &Blocks<D>,
+        fast: &mut Particles<D>,
+    ) {
+        let offset = Vector::<D>::from_fn(|a, _| 0.01 - 0.004 * a as f64);
+        let force = |p: usize| Vector::<D>::from_fn(|a, _| ((7 * p + 3 * a) % 11) as f64 - 4.0);
+        let mut nodes = vec![Node::default(); blocks.stored];
+        let mut plain = Dense::new(context.geometry.counts);
+        let columns = Columns::new(fast, fast.len(), kernels.affine());
+        for block in &blocks.bodies[0].blocks {
+            let loaded = block.points().step_by(3);
+            let forces: Vec<(u32, Vector<D>)> = loaded.map(|p| (p as u32, force(p))).collect();
+            let nodes = nodes.as_mut_ptr();
+            // SAFETY: one thread; the points were sorted, and moved within reach
+            unsafe { kernels.scatter_forces(context, &columns, block, nodes, &offset, &forces) };
+        }
+        for block in &blocks.bodies[0].blocks {
+            for p in block.points().step_by(3) {
+                for known in knows(fast, p) {
+                    let share = known.weight + known.lean.dot(&offset);
+                    plain.add(&known.node, &(force(p) * share), 0.0);
+                }
+            }
+        }
+        let nodes = dense(context.geometry, blocks, &nodes);
+        let (fast, plain) = (nodes.nodes.as_flattened(), plain.nodes.as_flattened());
+        self.agree(&format!("{name} forces"), fast, plain);
+    }
+
     /// Holds every pass of the kernels to the plain ones.
     pub(super) fn compare<const D: usize>(
         &self,
@@ -175,6 +210,8 @@ impl EveryPass<'_> {
                 );
             }
         }
+
+        self.check_forces(kernels, &context, &name, knows, &blocks, &mut fast);
 
         let arrays = [0; 3].map(|_| -> Vec<Node> {
             (0..blocks.stored)

@@ -53,7 +53,12 @@ fn known_by_domain<const D: usize>(
                 share * away.iter().map(|x| hat(*x)).product::<f64>()
             };
             let hats: Vec<f64> = signs.iter().map(at).collect();
+            let lean = |a: usize| -> f64 {
+                let faces = signs.iter().zip(&hats).map(|(s, at)| s[a] * at);
+                faces.sum::<f64>() / (0.5 * h * SPACING[a])
+            };
             Known {
+                lean: Vector::from_fn(|a, _| lean(a)),
                 node: place.map(|node| node + Cpdi::REACH),
                 arm,
                 weight: hats.iter().sum(),

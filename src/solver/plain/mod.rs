@@ -54,6 +54,8 @@ struct Known<const D: usize> {
     arm: Vector<D>,
     weight: f64,
     gradient: Vector<D>,
+    /// What a force gives more to the node for each metre that it acts beside the point, measured where the point is undeformed.
+    lean: Vector<D>,
     /// N_i D⁻¹ (x_i − x) with D = Σ N_i (x_i − x)(x_i − x)ᵀ; the gradient where a point has no D, or the basis says so.
     fitted: Vector<D>,
     /// ∇N_i at the middle of the point's cell, if changes of volume are taken there.
@@ -98,6 +100,7 @@ fn known<const D: usize, const N: usize, B: Basis<N>>(
                 }),
                 weight: product(&axes, D),
                 gradient: Vector::from_fn(|a, _| product(&axes, a)),
+                lean: Vector::from_fn(|a, _| product(&axes, a)),
                 fitted: Vector::zeros(),
                 middle: basis[0]
                     .dilation_at_centre()
