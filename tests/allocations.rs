@@ -55,7 +55,7 @@ fn count<const D: usize>(scene: &Scene, variant: &Variant, parallel: bool) -> (u
         &scenario,
         &Computing {
             parallel: Some(parallel),
-            portable: false,
+            instructions: None,
         },
     );
     let (state, solver) = (&mut built.state, &mut built.solver);

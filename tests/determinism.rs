@@ -3,6 +3,7 @@
 mod common;
 
 use common::{NEO_HOOKEAN, Scene, Variant, list, texts, variants};
+use mpm::real::Instructions;
 use mpm::run::{Computing, build_with};
 use mpm::scenario::Scenario;
 use mpm::solver::Account;
@@ -66,7 +67,7 @@ fn run<const D: usize>(scenario: &Scenario, steps: u32, step: f64, parallel: boo
         scenario,
         &Computing {
             parallel: Some(parallel),
-            portable: false,
+            instructions: None,
         },
     );
     let (state, solver) = (&mut scene.state, &mut scene.solver);
@@ -212,6 +213,58 @@ fn a_law_without_memory() {
     same_on_any_number_of_threads(&scene);
 }
 
+/// Points that drift through cells, so that groups fall apart and are sorted early, give the same bits in groups of four and of
+/// eight; on a processor without registers of eight numbers both are groups of four.
+#[test]
+fn eight_at_a_time() {
+    let mut scene = two_boxes(3);
+    scene.rest = "[[body]]\nname = \"left\"\nmaterial = \"stuff\"\nparticles_per_cell = 2\n\
+                  shape.box = { min = [2, 2, 2], max = [10, 9, 8] }\n\
+                  velocity = [\"2 + 0.1 * x\", \"1.5 - 0.1 * z\", \"1\"]\n"
+        .into();
+    scene.head = String::new();
+    scene.cells = [16; 3];
+    for (transfer, update) in [("\"mls_apic\"", "usl"), ("\"flip\"", "musl")] {
+        let variant = Variant {
+            basis: "quadratic",
+            transfer: transfer.into(),
+            update,
+            frame: "updated",
+        };
+        let scenario = scene.scenario(&variant);
+        let run = |instructions| {
+            let computing = Computing {
+                parallel: Some(false),
+                instructions: Some(instructions),
+            };
+            let mut scene = build_with::<3>(&scenario, &computing);
+            let (state, solver) = (&mut scene.state, &mut scene.solver);
+            solver
+                .start(state)
+                .unwrap_or_else(|fault| panic!("{fault}"));
+            // the step and the order after each sort
+            let mut orders = vec![(0, order(state))];
+            for step in 1..=80 {
+                solver
+                    .step(state, 0.01)
+                    .unwrap_or_else(|fault| panic!("{fault}"));
+                let now = order(state);
+                if orders.last().is_none_or(|(_, last)| *last != now) {
+                    orders.push((step, now));
+                }
+            }
+            let bits: Vec<_> = state.bodies.iter().map(bits_of).collect();
+            (orders, bits)
+        };
+        let four = run(Instructions::Wide);
+        let eight = run(Instructions::Widest);
+        let sorts: Vec<_> = four.0.iter().map(|(step, _)| *step).collect();
+        // fastest is 3 m/s: no point is a cell away from its block before step 33
+        assert!(sorts[1] < 33, "no sort is early: {sorts:?}");
+        assert!(four == eight, "eight at a time give other bits: {update}");
+    }
+}
+
 /// So many that blocks are large ones.
 #[test]
 fn many_points() {
@@ -231,7 +284,7 @@ fn many_points() {
     let run = |threads: usize| {
         let computing = Computing {
             parallel: Some(threads > 1),
-            portable: false,
+            instructions: None,
         };
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads can be started").install(|| {

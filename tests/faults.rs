@@ -31,7 +31,7 @@ fn fault<const D: usize>(
         scenario,
         &Computing {
             parallel: Some(parallel),
-            portable: false,
+            instructions: None,
         },
     );
     scene

@@ -93,7 +93,7 @@ fn step<const D: usize>(
 ) -> (DMatrix<f64>, DMatrix<f64>, Vec<f64>, Matrices<D>) {
     let computing = Computing {
         parallel: Some(false),
-        portable: false,
+        instructions: None,
     };
     let mut scene = build_with::<D>(scenario, &computing);
     let body = &scene.state.bodies[0];

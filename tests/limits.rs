@@ -10,7 +10,7 @@ use mpm::solver::Fault;
 fn fastest<const D: usize>(scenario: &Scenario, parallel: bool, name: &str) {
     let computing = Computing {
         parallel: Some(parallel),
-        portable: false,
+        instructions: None,
     };
     let mut scene = build_with::<D>(scenario, &computing);
     let (state, solver) = (&mut scene.state, &mut scene.solver);

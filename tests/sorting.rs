@@ -56,7 +56,7 @@ fn history<const D: usize>(shuffled: bool, parallel: bool) -> Vec<Vec<(u32, Vec<
     let scenario = block(D);
     let computing = Computing {
         parallel: Some(parallel),
-        portable: false,
+        instructions: None,
     };
     let mut scene = build_with::<D>(&scenario, &computing);
     if shuffled {
@@ -114,7 +114,7 @@ fn any_number_of_threads_stores_points_in_the_same_order() {
 fn cells_are_together<const D: usize>() {
     let computing = Computing {
         parallel: Some(false),
-        portable: false,
+        instructions: None,
     };
     let mut scene = build_with::<D>(&block(D), &computing);
     shuffle(&mut scene.state);

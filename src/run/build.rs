@@ -6,6 +6,7 @@ use crate::input::{Expression, Variables};
 use crate::material::Plane;
 use crate::math::{Matrix, Vector, packed_len};
 use crate::observe::{BodyTable, EnergyTable, Observer, ProbeTable, ReactionTable};
+use crate::real::Instructions;
 use crate::scenario::{
     GridSpec, LoadKind, LoadPlace, LoadSpec, PointSet, ProbeTarget, ReferenceFrame, Region,
     Scenario, body_points, loaded_faces,
@@ -40,8 +41,8 @@ pub struct Scene<const D: usize> {
 pub struct Computing {
     /// Whether steps may use several threads; if not given, where that pays.
     pub parallel: Option<bool>,
-    /// Plain arithmetic even where the processor offers more.
-    pub portable: bool,
+    /// With which instructions; if not given, with the most that the processor has.
+    pub instructions: Option<Instructions>,
 }
 
 /// Builds the scene of a scenario and hands it to the visitor.
@@ -79,11 +80,8 @@ pub fn build_with<const D: usize>(scenario: &Scenario, computing: &Computing) ->
         &sets,
         computing.parallel.unwrap_or_else(pays),
     );
-    let solver = Box::new(if computing.portable {
-        solver.portable()
-    } else {
-        solver
-    });
+    let found = Instructions::found();
+    let solver = Box::new(solver.with_instructions(computing.instructions.unwrap_or(found)));
     Scene {
         state,
         solver,

@@ -39,8 +39,8 @@ pub trait Kernels<const D: usize>: Send + Sync {
     /// Where stencils of a body start relative to their point, in cells.
     fn shift(&self, body: usize) -> [f64; D];
 
-    /// First node of the stencil of a point of a body, whose position is given in cells.
-    fn first(&self, body: usize, x: &[f64; D], cells: &[i32; D]) -> [i32; D];
+    /// The last node at which a stencil starts; the first of a point is floor(x + shift), x in cells, or this one.
+    fn last_start(&self, body: usize, cells: &[i32; D]) -> [i32; D];
 
     /// Σ N_i (x_i − x) (x_i − x)ᵀ, in cells², for a point of a body; `deformed` is the deformation gradient of its domain, if it
     /// has one.
@@ -165,8 +165,8 @@ impl<const D: usize, const N: usize, B: Basis<N>, T: Transfer> Kernels<D> for St
         self.basis[body].map(|basis| basis.shift())
     }
 
-    fn first(&self, body: usize, x: &[f64; D], cells: &[i32; D]) -> [i32; D] {
-        std::array::from_fn(|a| self.basis[body][a].axis(x[a], cells[a]).first)
+    fn last_start(&self, body: usize, cells: &[i32; D]) -> [i32; D] {
+        std::array::from_fn(|a| self.basis[body][a].count(cells[a]) - N as i32)
     }
 
     fn inertia(

@@ -1,5 +1,6 @@
 //! The explicit solver. It knows bodies, a grid and time; no files and no names.
 
+mod cells;
 mod disjoint;
 mod frame;
 mod free;

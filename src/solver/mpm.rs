@@ -143,16 +143,16 @@ impl<const D: usize> Mpm<D> {
         self.terms > 1
     }
 
-    /// Uses plain arithmetic even where the processor offers more.
-    pub fn portable(mut self) -> Self {
-        self.instructions = Instructions::Portable;
+    /// Uses these instructions, as far as the processor has them.
+    pub fn with_instructions(mut self, instructions: Instructions) -> Self {
+        self.instructions = instructions.usable();
         self
     }
 
     /// Whether so many groups of points have fallen apart that sorting them pays.
-    fn is_worn(&mut self, apart: usize) -> bool {
+    fn is_worn(&mut self, gathered: &Gathered) -> bool {
         let points = self.blocks.bodies.iter().map(|body| body.points()).sum();
-        self.grouping.note(apart, points);
+        self.grouping.note(gathered.apart, gathered.alone, points);
         self.grouping.is_worn(sort_in_steps(D))
     }
 
@@ -311,7 +311,7 @@ impl<const D: usize> Solver<D> for Mpm<D> {
         };
         self.ledger.book(&sums, gathered.kinetic);
         self.speed = gathered.speed_squared.sqrt();
-        self.needs_sort = !gathered.within || self.is_worn(gathered.apart);
+        self.needs_sort = !gathered.within || self.is_worn(&gathered);
         self.last_dt = dt;
         state.time += dt;
         state.step += 1;

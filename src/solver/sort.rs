@@ -1,7 +1,7 @@
 //! Keeps the points of each body ordered by the block of the grid that they are in, and within it by cell.
 
+use super::cells::{Places, order_block};
 use super::disjoint::Disjoint;
-use super::grouping::Grouping;
 use super::integrate::Constraint;
 use super::kernels::Kernels;
 use super::mpm::Mpm;
@@ -42,10 +42,14 @@ struct Piece<const D: usize> {
 
 impl<const D: usize> Piece<D> {
     /// Notes a block. The list is tidied whenever it has doubled, so that points in any order make it no longer than that.
+    #[inline(always)]
     fn note(&mut self, key: [i32; D]) {
-        if self.keys.last() == Some(&key) {
-            return;
+        if self.keys.last() != Some(&key) {
+            self.append(key);
         }
+    }
+
+    fn append(&mut self, key: [i32; D]) {
         if self.keys.len() >= self.limit.max(PIECE) {
             self.tidy();
             self.limit = 2 * self.keys.len();
@@ -58,9 +62,6 @@ impl<const D: usize> Piece<D> {
         self.keys.dedup();
     }
 }
-
-/// Cells that a block has at most: 8³.
-const MOST_CELLS: usize = 512;
 
 /// Points from which on sorting them is shared among threads.
 const PIECE: usize = 1 << 13;
@@ -82,11 +83,11 @@ impl<const D: usize> Mpm<D> {
         let mut scratch = std::mem::take(&mut self.scratch);
         scratch.occupied.resize_with(state.bodies.len(), Vec::new);
         let (time, step) = (state.time, state.step);
-        self.choose_edge(state, &mut scratch);
+        let mut collected = self.choose_edge(state, &mut scratch);
         let mut result = Ok(());
         for (index, body) in state.bodies.iter_mut().enumerate() {
             result = self
-                .sort_body(index, body, &mut scratch)
+                .sort_body(index, body, collected.take(), &mut scratch)
                 .map_err(|row| self.fault(time, step, body, row));
             if result.is_err() {
                 break;
@@ -98,31 +99,47 @@ impl<const D: usize> Mpm<D> {
                 .rebuild(self.edge, &self.geometry.counts, &scratch.occupied);
             self.lay_out();
             self.needs_sort = false;
-            self.grouping = Grouping::default();
+            self.grouping.begin();
         }
         self.scratch = scratch;
         result
     }
 
-    /// The first node of the stencil of a point.
-    fn first(&self, body: usize, position: &Vector<D>) -> [i32; D] {
-        let x = self
-            .geometry
-            .in_cells(position, 1.0 / self.geometry.cell_size);
-        self.kernels.first(body, &x, &self.geometry.cells)
+    /// Moves the points of a body to the rows in `slots`.
+    fn move_rows(
+        &self,
+        body: &mut Body<D>,
+        slots: &mut [u32],
+        order: &mut Vec<u32>,
+        leaders: &mut Vec<u32>,
+    ) {
+        reorder::cycles(slots, order, leaders);
+        if order.is_empty() {
+            return;
+        }
+        let (particles, material) = (&mut body.particles, &mut body.material);
+        if self.parallel {
+            rayon::join(
+                || particles.permute(order, leaders, true),
+                || material.permute(order, leaders),
+            );
+        } else {
+            particles.permute(order, leaders, false);
+            material.permute(order, leaders);
+        }
     }
 
-    fn block_of(&self, body: usize, position: &Vector<D>) -> [i32; D] {
-        self.first(body, position)
-            .map(|first| first.div_euclid(self.edge))
-    }
-
-    /// The number of the cell of a point among those of its block.
-    fn cell(&self, body: usize, position: &Vector<D>) -> usize {
-        let first = self.first(body, position);
-        first.iter().fold(0, |number, first| {
-            number * self.edge as usize + first.rem_euclid(self.edge) as usize
-        })
+    /// Where the points of a body are counted to.
+    fn places(&self, body: usize) -> Places<D> {
+        let geometry = &self.geometry;
+        Places {
+            min: geometry.min,
+            inverse: 1.0 / geometry.cell_size,
+            cells: geometry.cells,
+            shift: self.kernels.shift(body),
+            last: self.kernels.last_start(body, &geometry.cells),
+            exponent: self.edge.ilog2(),
+        }
     }
 
     /// Sorts one body, or names the row of a point that has no place in the grid.
@@ -133,6 +150,7 @@ impl<const D: usize> Mpm<D> {
         &self,
         index: usize,
         body: &mut Body<D>,
+        collected: Option<usize>,
         scratch: &mut Scratch<D>,
     ) -> Result<(), usize> {
         let Scratch {
@@ -144,7 +162,10 @@ impl<const D: usize> Mpm<D> {
             occupied,
         } = scratch;
         let count = body.particles.len();
-        let size = self.collect_blocks(index, &body.particles, keys, pieces)?;
+        let size = match collected {
+            Some(size) => size,
+            None => self.collect_blocks(index, &body.particles, keys, pieces)?,
+        };
         let pieces = &mut pieces[..count.div_ceil(size)];
         slots.resize(count, 0);
         self.count_blocks(index, &body.particles, size, keys, pieces, slots);
@@ -179,24 +200,11 @@ impl<const D: usize> Mpm<D> {
         if D > 1 {
             self.order_cells(index, &body.particles, blocks, slots, order);
         }
-        reorder::cycles(slots, order, leaders);
-        if !order.is_empty() {
-            let (particles, material) = (&mut body.particles, &mut body.material);
-            if self.parallel {
-                rayon::join(
-                    || particles.permute(order, leaders, true),
-                    || material.permute(order, leaders),
-                );
-            } else {
-                particles.permute(order, leaders, false);
-                material.permute(order, leaders);
-            }
-        }
+        self.move_rows(body, slots, order, leaders);
         Ok(())
     }
 
-    /// Orders the points of each block by their cells, those of a cell as they were. `slots` has the rows that points go to,
-    /// `order` is for working.
+    /// Orders the points of each block, see [`order_block`]. `slots` has the rows that points go to, `order` is for working.
     fn order_cells(
         &self,
         index: usize,
@@ -211,28 +219,11 @@ impl<const D: usize> Mpm<D> {
         }
         let positions = particles.grid_position();
         let slots = Disjoint::new(slots);
+        let places = self.places(index);
         let order_one = |&(_, (first, end)): &Occupied<D>| {
             let rows = &order[first as usize..end as usize];
-            let mut next = [0; MOST_CELLS];
-            for &row in rows {
-                let row = row as usize;
-                let cell = self.cell(index, &positions[row]);
-                next[cell] += 1;
-                // SAFETY: every row is in one block only
-                unsafe { slots.slice(row..row + 1)[0] = cell as u32 };
-            }
-            let mut target = first;
-            for next in &mut next[..(self.edge as usize).pow(D as u32)] {
-                target += std::mem::replace(next, target);
-            }
-            for &row in rows {
-                let row = row as usize;
-                // SAFETY: as above
-                let slot = unsafe { &mut slots.slice(row..row + 1)[0] };
-                let next = &mut next[*slot as usize];
-                *slot = *next;
-                *next += 1;
-            }
+            // SAFETY: every row is in one block only, and one thread orders a block
+            unsafe { order_block(&places, positions, rows, first, &slots) };
         };
         if self.parallel && blocks.len() > 1 {
             blocks.par_iter().for_each(order_one);
@@ -241,8 +232,9 @@ impl<const D: usize> Mpm<D> {
         }
     }
 
-    /// Edge of the blocks for points as they stand: a large one where they are many and fill such blocks.
-    fn choose_edge(&mut self, state: &State<D>, scratch: &mut Scratch<D>) {
+    /// Edge of the blocks for points as they stand: a large one where they are many and fill such blocks. If that has found the
+    /// blocks of the only body, returns the size of pieces as [`Self::collect_blocks`] does.
+    fn choose_edge(&mut self, state: &State<D>, scratch: &mut Scratch<D>) -> Option<usize> {
         let least = block_edge(D, self.kernels.nodes());
         let points: usize = state.bodies.iter().map(|body| body.particles.len()).sum();
         // each array of the grid has nodes of blocks that no point fills
@@ -250,23 +242,26 @@ impl<const D: usize> Mpm<D> {
         let many = if one_array { MANY } else { 4 * MANY };
         self.edge = least;
         if D < 3 || points < many {
-            return;
+            return None;
         }
         self.edge = LARGE_EDGE;
         let (keys, pieces) = (&mut scratch.keys, &mut scratch.pieces);
         let mut blocks = 0;
+        let mut collected = None;
         for (index, body) in state.bodies.iter().enumerate() {
             // a point without a place is for the sort to name
-            if self
+            collected = self
                 .collect_blocks(index, &body.particles, keys, pieces)
-                .is_ok()
-            {
+                .ok();
+            if collected.is_some() {
                 blocks += keys.len();
             }
         }
         if points < FILLED * blocks {
             self.edge = least;
+            return None;
         }
+        collected.filter(|_| state.bodies.len() == 1)
     }
 
     /// Finds the blocks that a body occupies, in order, looking at pieces of it of a size that it returns; or names the first row
@@ -306,27 +301,22 @@ impl<const D: usize> Mpm<D> {
         pieces: &mut [Piece<D>],
     ) -> Result<(), usize> {
         let positions = particles.grid_position();
+        let places = self.places(index);
         let look = |(number, piece): (usize, &mut Piece<D>)| {
             piece.keys.clear();
             piece.lost = None;
             for row in number * size..((number + 1) * size).min(particles.len()) {
                 let position = &positions[row];
-                let x = self
-                    .geometry
-                    .in_cells(position, 1.0 / self.geometry.cell_size);
-                // false too if x is not a number
-                let inside =
-                    (0..D).all(|a| x[a] >= 0.0 && x[a] <= f64::from(self.geometry.cells[a]));
                 // where points stay in the grid, their present positions say nothing else
                 let motion = particles.velocity[row].iter();
                 let finite = motion
                     .chain(&particles.position[row])
                     .all(|x| x.is_finite());
-                if !(inside && finite) {
+                if !(places.holds(position) && finite) {
                     piece.lost = Some(row);
                     return;
                 }
-                piece.note(self.block_of(index, position));
+                piece.note(places.block(position));
             }
             piece.tidy();
         };
@@ -351,12 +341,13 @@ impl<const D: usize> Mpm<D> {
         pieces: &mut [Piece<D>],
         slots: &mut [u32],
     ) {
+        let places = self.places(index);
         let count = |((piece, slots), positions): ((&mut Piece<D>, &mut [u32]), &[Vector<D>])| {
             piece.starts.clear();
             piece.starts.resize(keys.len(), 0);
             let mut slot = 0;
             for (target, position) in slots.iter_mut().zip(positions) {
-                let key = self.block_of(index, position);
+                let key = places.block(position);
                 if keys[slot] != key {
                     slot = keys.partition_point(|other| other < &key);
                 }

@@ -94,7 +94,10 @@ pub(super) fn points<const D: usize>(
             }
         })
     };
-    let first = |x: &[f64; D]| kernels.first(0, x, &geometry.cells);
+    let (shift, last) = (kernels.shift(0), kernels.last_start(0, &geometry.cells));
+    let first = |x: &[f64; D]| -> [i32; D] {
+        std::array::from_fn(|a| ((x[a] + shift[a]).floor() as i32).min(last[a]))
+    };
     let block = |x: &[f64; D]| first(x).map(|first| first.div_euclid(edge));
     // half of the points are eight or four in a cell, which stand first in their block: whole groups with the same nodes
     let mut places: Vec<([f64; D], usize)> = Vec::new();

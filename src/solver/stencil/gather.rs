@@ -22,6 +22,9 @@ pub struct Gathered {
     pub speed_squared: f64,
     /// Points of groups that could not be taken as one, where points move in 2D and 3D.
     pub apart: usize,
+    /// Points of groups of four that can be taken as one in 3D, but not with another four as eight, where points move. Whether eight
+    /// are taken as one depends on the processor, this does not.
+    pub alone: usize,
     /// Whether all points are finite, and, unless they stay where they are in the grid, inside it and within the reach of their
     /// block.
     pub within: bool,
@@ -33,6 +36,7 @@ impl Gathered {
         kinetic: 0.0,
         speed_squared: 0.0,
         apart: 0,
+        alone: 0,
         within: true,
     };
 
@@ -42,6 +46,7 @@ impl Gathered {
             kinetic: self.kinetic + other.kinetic,
             speed_squared: self.speed_squared.max(other.speed_squared),
             apart: self.apart + other.apart,
+            alone: self.alone + other.alone,
             within: self.within && other.within,
         }
     }
@@ -93,6 +98,8 @@ pub unsafe fn gather<E: Points, const D: usize, const N: usize, B: Basis<N>, T: 
     };
     let mut wider = Wider::<E, D, N>::new();
     let mut fours = Fours(rows);
+    // where the nodes begin of the four points before, unless they are apart or half of an eight
+    let mut single = None;
     loop {
         // SAFETY: the rows belong to this block alone, and the tile holds every node of their stencils (module header)
         unsafe {
@@ -103,6 +110,7 @@ pub unsafe fn gather<E: Points, const D: usize, const N: usize, B: Basis<N>, T: 
                 let gradients = Some((&mut *rates, at));
                 let offered = offered_to_one(pass, &asked, &wider.group, tile, gradients);
                 sums.bring(pass, &asked, reach, &place, &offered, rates.hoops_from(at));
+                single = None;
                 continue;
             }
         }
@@ -121,8 +129,20 @@ pub unsafe fn gather<E: Points, const D: usize, const N: usize, B: Basis<N>, T: 
             let gradients = Some((&mut *rates, at));
             let offered = offered(pass, &asked, &group, &centre, tile, gradients);
             sums.bring(pass, &asked, reach, &place, &offered, rates.hoops_from(at));
-            if what.position && D > 1 && !group.is_one(rows.count, centre.used) {
-                sums.apart += rows.count;
+            if what.position && D > 1 {
+                if !group.is_one(rows.count, centre.used) {
+                    sums.apart += rows.count;
+                    single = None;
+                } else if D == 3 {
+                    let node = (group.row[0], group.node[0]);
+                    if single == Some(node) {
+                        sums.alone -= rows.count;
+                        single = None;
+                    } else {
+                        sums.alone += rows.count;
+                        single = Some(node);
+                    }
+                }
             }
         }
     }
@@ -207,6 +227,7 @@ struct GatheredLanes<L> {
     kinetic: L,
     fastest: L,
     apart: usize,
+    alone: usize,
     within: bool,
 }
 
@@ -217,6 +238,7 @@ impl<L: Lane> GatheredLanes<L> {
             kinetic: L::splat(0.0),
             fastest: L::splat(0.0),
             apart: 0,
+            alone: 0,
             within: true,
         }
     }
@@ -323,6 +345,7 @@ impl<L: Lane> GatheredLanes<L> {
             kinetic: 0.5 * ((kinetic[0] + kinetic[1]) + (kinetic[2] + kinetic[3])),
             speed_squared: fastest.iter().fold(0.0, |most, v| f64::max(most, *v)),
             apart: self.apart,
+            alone: self.alone,
             within: self.within,
         }
     }

@@ -80,7 +80,7 @@ particles_per_cell = {}
         debug_assert_eq!(scenario.plane, Plane::Strain);
         let computing = Computing {
             parallel: Some(false),
-            portable: false,
+            instructions: None,
         };
         let mut scene = build_with::<1>(&scenario, &computing);
         let middle = 0.5 * (self.span[0] + self.span[1]);

@@ -188,7 +188,7 @@ impl<const D: usize> Block<D> {
         let scenario = scenario::<D>(method, points, cells, held, offset);
         let computing = Computing {
             parallel: Some(false),
-            portable: false,
+            instructions: None,
         };
         let mut scene = build_with::<D>(&scenario, &computing);
         let p = &scene.state.bodies[0].particles;

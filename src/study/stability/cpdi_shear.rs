@@ -184,7 +184,7 @@ particles_per_cell = {}
         let loaded = parse("block", &text, &[frame]).map_err(CaseError::Input)?;
         let computing = Computing {
             parallel: Some(false),
-            portable: false,
+            instructions: None,
         };
         let mut scene = build_with::<2>(&loaded.scenario, &computing);
         let wrong = |fault: Fault| CaseError::Run(fault.into());

@@ -168,7 +168,7 @@ fn turn(method: Method, points: u32, (seeding, cell): (Seeding, f64)) -> Result<
         .scenario;
     let computing = Computing {
         parallel: Some(false),
-        portable: false,
+        instructions: None,
     };
     let mut scene = build_with::<2>(&scenario, &computing);
     seed(&mut scene.state.bodies[0].particles, seeding);

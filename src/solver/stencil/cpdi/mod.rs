@@ -66,8 +66,8 @@ impl<const D: usize, T: Transfer> Kernels<D> for Domains<D, T> {
         [0.0; D]
     }
 
-    fn first(&self, _: usize, x: &[f64; D], cells: &[i32; D]) -> [i32; D] {
-        std::array::from_fn(|a| domain::first(x[a], cells[a]) as i32)
+    fn last_start(&self, _: usize, cells: &[i32; D]) -> [i32; D] {
+        cells.map(|cells| cells - 1)
     }
 
     fn inertia(
