@@ -4,6 +4,8 @@
 //! cycles into one list, once for all columns: walked along the list, moves need not wait for each other, which makes them
 //! several times faster than following the order from place to place.
 
+use crate::real::prefetch;
+
 /// Lists the cycles of an order in which row `i` goes to place `target[i]`.
 ///
 /// `target` must be a permutation of `0 .. target.len()`, and is used up. `order` gets the places of every cycle that is longer
@@ -58,7 +60,10 @@ fn move_rows<T: Copy>(rows: &mut [T], order: &[u32], leaders: &[u32]) {
         let held = rows[places[0] as usize];
         for pair in places.windows(2) {
             if let Some(&soon) = order.get(moved + AHEAD) {
-                fetch(rows.as_ptr().wrapping_add(soon as usize));
+                // a row may begin anywhere in a cache line
+                let row = rows.as_ptr().wrapping_add(soon as usize);
+                prefetch(row, size_of::<T>());
+                prefetch(row.wrapping_byte_add(size_of::<T>() - 1), 1);
             }
             moved += 1;
             rows[pair[0] as usize] = rows[pair[1] as usize];
@@ -66,28 +71,6 @@ fn move_rows<T: Copy>(rows: &mut [T], order: &[u32], leaders: &[u32]) {
         moved += 1;
         rows[places[places.len() - 1] as usize] = held;
     }
-}
-
-/// Asks the processor for a row that is needed soon. The address may be any; nothing is read.
-#[inline(always)]
-fn fetch<T>(row: *const T) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let first = row.cast::<i8>();
-        // SAFETY: a prefetch reads nothing
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(first) };
-        if size_of::<T>() > 64 {
-            // SAFETY: as above
-            unsafe { _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(64)) };
-        }
-        if size_of::<T>() > 8 {
-            // SAFETY: as above
-            unsafe { _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(size_of::<T>() - 1)) };
-        }
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = row;
 }
 
 /// The places of each cycle.

@@ -211,10 +211,7 @@ impl Real for Avx512 {
     }
     #[inline(always)]
     fn prefetch(from: *const f64, count: usize) {
-        for line in 0..count.div_ceil(8) {
-            // SAFETY: a prefetch reads nothing
-            unsafe { _mm_prefetch::<_MM_HINT_T0>(from.wrapping_add(8 * line).cast()) };
-        }
+        super::prefetch(from, count * size_of::<f64>());
     }
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {

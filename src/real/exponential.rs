@@ -5,6 +5,7 @@
 //! its digits. The error is below 2 units in the last place.
 
 use super::logarithm::{LN2_HIGH, LN2_LOW};
+use super::polynomial::polynomial;
 use super::{Mask, Real};
 
 /// Beyond this the library is asked.
@@ -19,30 +20,18 @@ pub(super) trait Power: Real {
     fn power_of_two(self) -> Self;
 }
 
-/// 1/0!, 1/1! … 1/14!.
-const TERMS: [f64; 15] = {
-    let mut terms = [1.0; 15];
+/// 1/2!, 1/3! … 1/14!.
+const SERIES: [f64; 13] = {
+    let mut series = [1.0; 13];
     let mut factorial = 1.0;
-    let mut n = 1;
-    while n < terms.len() {
-        factorial *= n as f64;
-        terms[n] = 1.0 / factorial;
+    let mut n = 0;
+    while n < series.len() {
+        factorial *= (n + 2) as f64;
+        series[n] = 1.0 / factorial;
         n += 1;
     }
-    terms
+    series
 };
-
-/// 1/2! + r/3! + … + r¹²/14!: neighbours first, then pairs of them, and so on, so that few operations wait for each other.
-#[inline(always)]
-fn series<R: Real>(r: R) -> R {
-    let pair = |n: usize| r.mul_add(R::splat(TERMS[n + 1]), R::splat(TERMS[n]));
-    let r2 = r * r;
-    let four = |n: usize| r2.mul_add(pair(n + 2), pair(n));
-    let r4 = r2 * r2;
-    let low = r4.mul_add(four(6), four(2));
-    let high = r4.mul_add(R::splat(TERMS[14]), four(10));
-    (r4 * r4).mul_add(high, low)
-}
 
 #[inline(always)]
 pub(super) fn exp_m1<R: Power>(x: R) -> R {
@@ -50,7 +39,7 @@ pub(super) fn exp_m1<R: Power>(x: R) -> R {
     let rounded = x * std::f64::consts::LOG2_E + ROUNDER;
     let k = rounded - ROUNDER;
     let r = k.mul_add(R::splat(-LN2_LOW), k.mul_add(R::splat(-LN2_HIGH), x));
-    let small = (r * r).mul_add(series(r), r);
+    let small = (r * r).mul_add(polynomial(r, &SERIES), r);
     let power = rounded.power_of_two();
     let result = small.mul_add(power, power - 1.0);
     if ordinary.all() {

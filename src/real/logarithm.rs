@@ -8,6 +8,7 @@
 //! and ln x = k ln 2 + ln(1 + f) with ln 2 split into a part of few bits and a rest, so that k times the former is exact.
 //! The error is below 1 unit in the last place.
 
+use super::polynomial::polynomial;
 use super::{Mask, Real};
 
 pub(super) const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
@@ -81,19 +82,23 @@ pub(super) fn ln<R: Exponent>(x: R) -> R {
 /// for far fewer operations.
 const NEAR: f64 = 0.125;
 
+/// 1/3, −1/4 … 1/17.
+const NEAR_SERIES: [f64; 15] = {
+    let mut series = [0.0; 15];
+    let mut n = 0;
+    while n < series.len() {
+        let sign = if n % 2 == 0 { 1.0 } else { -1.0 };
+        series[n] = sign / (n + 3) as f64;
+        n += 1;
+    }
+    series
+};
+
 /// x − x²/2 + x³/3 − … + x¹⁷/17; what is left out is below 2⁻⁵⁵ of the first term where |x| is at most [`NEAR`].
 #[inline(always)]
 fn near<R: Real>(x: R) -> R {
-    let term = |n: i32| R::splat(if n % 2 == 0 { -1.0 } else { 1.0 } / f64::from(n));
-    // what takes time is the chain of operations that wait for each other: neighbours first, then pairs of them, and so on
-    let pair = |n: i32| x.mul_add(term(n + 1), term(n));
-    let x2 = x * x;
-    let four = |n: i32| x2.mul_add(pair(n + 2), pair(n));
-    let x4 = x2 * x2;
-    let low = x4.mul_add(four(7), four(3));
-    let high = x4.mul_add(x2.mul_add(term(17), pair(15)), four(11));
-    let sum = (x4 * x4).mul_add(high, low);
-    x2.mul_add(x.mul_add(sum, R::splat(-0.5)), x)
+    let series = polynomial(x, &NEAR_SERIES);
+    (x * x).mul_add(x.mul_add(series, R::splat(-0.5)), x)
 }
 
 /// ln(1 + x).

@@ -9,7 +9,9 @@ mod avx;
 mod avx512;
 mod exponential;
 mod logarithm;
+mod polynomial;
 mod portable;
+mod prefetch;
 mod scalar;
 #[cfg(test)]
 mod tests;
@@ -19,6 +21,7 @@ pub use avx::Avx;
 #[cfg(target_arch = "x86_64")]
 pub use avx512::Avx512;
 pub use portable::Portable;
+pub use prefetch::prefetch;
 
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
