@@ -316,7 +316,9 @@ mod tests {
         let mut rings = Masses::of_volumes(2.0, 3, |p| 1.0 + p as f64);
         assert!(!rings.are_same() && rings.bytes_per_point() == 8);
         // row 0 goes to place 1, that to 2, that to 0
-        rings.permute(&[0, 1, 2], &[0]);
+        let (mut order, mut leaders) = (Vec::new(), Vec::new());
+        reorder::cycles(&mut [1, 2, 0], &mut order, &mut leaders);
+        rings.permute(&order, &leaders);
         assert_eq!(rings.numbers(), [6.0, 2.0, 4.0]);
         assert_eq!([0, 1, 2].map(|p| rings.initial_volume(p)), [3.0, 1.0, 2.0]);
     }
