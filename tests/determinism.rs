@@ -45,13 +45,13 @@ fn bits_of<const D: usize>(body: &Body<D>) -> Vec<Vec<u64>> {
     points
 }
 
-/// State and account after a run, and how many times the points of a body changed their order in storage.
+/// State and account after a run, and the orders in which points were stored: at the start, and after each step that changed it.
 #[derive(PartialEq)]
 struct Outcome {
     bits: Vec<Vec<Vec<u64>>>,
     account: Account,
     reactions: Vec<Vec<u64>>,
-    sorts: usize,
+    orders: Vec<(u32, Vec<Vec<u32>>)>,
 }
 
 fn order<const D: usize>(state: &State<D>) -> Vec<Vec<u32>> {
@@ -62,26 +62,27 @@ fn order<const D: usize>(state: &State<D>) -> Vec<Vec<u32>> {
         .collect()
 }
 
-fn run<const D: usize>(scenario: &Scenario, steps: u32, step: f64, parallel: bool) -> Outcome {
-    let mut scene = build_with::<D>(
-        scenario,
-        &Computing {
-            parallel: Some(parallel),
-            instructions: None,
-        },
-    );
+fn run<const D: usize>(
+    scenario: &Scenario,
+    steps: u32,
+    step: f64,
+    computing: &Computing,
+) -> Outcome {
+    let mut scene = build_with::<D>(scenario, computing);
     let (state, solver) = (&mut scene.state, &mut scene.solver);
     let method = format!("{:?}", scenario.method);
     solver
         .start(state)
         .unwrap_or_else(|fault| panic!("{fault}"));
-    let mut sorts = 0;
-    for _ in 0..steps {
-        let before = order(state);
+    let mut orders = vec![(0, order(state))];
+    for number in 1..=steps {
         solver
             .step(state, step)
             .unwrap_or_else(|fault| panic!("{method}: {fault}"));
-        sorts += usize::from(order(state) != before);
+        let now = order(state);
+        if orders.last().is_none_or(|(_, last)| *last != now) {
+            orders.push((number, now));
+        }
     }
     let totals: Vec<_> = state.bodies.iter().map(|body| body.totals()).collect();
     let ledger = solver.ledger();
@@ -97,7 +98,7 @@ fn run<const D: usize>(scenario: &Scenario, steps: u32, step: f64, parallel: boo
                     .collect()
             })
             .collect(),
-        sorts,
+        orders,
     }
 }
 
@@ -115,16 +116,22 @@ fn same_on_any_number_of_threads(scene: &Scene) {
     variants.retain(|variant| !variant.is_total() || variant.update == "musl");
     for variant in variants {
         let scenario = scene.scenario(&variant);
-        let run = |parallel| match scene.dimension {
-            1 => run::<1>(&scenario, scene.steps, scene.step, parallel),
-            2 => run::<2>(&scenario, scene.steps, scene.step, parallel),
-            _ => run::<3>(&scenario, scene.steps, scene.step, parallel),
+        let run = |parallel| {
+            let computing = Computing {
+                parallel: Some(parallel),
+                instructions: None,
+            };
+            match scene.dimension {
+                1 => run::<1>(&scenario, scene.steps, scene.step, &computing),
+                2 => run::<2>(&scenario, scene.steps, scene.step, &computing),
+                _ => run::<3>(&scenario, scene.steps, scene.step, &computing),
+            }
         };
         let name = format!("{}D {variant:?}", scene.dimension);
         let alone = run(false);
         // points on a line keep their order, and in the total frame all points do
         assert!(
-            alone.sorts > 0 || scene.dimension == 1 || variant.is_total(),
+            alone.orders.len() > 1 || scene.dimension == 1 || variant.is_total(),
             "{name}: points were never re-sorted"
         );
         for pool in &pools {
@@ -237,28 +244,11 @@ fn eight_at_a_time() {
                 parallel: Some(false),
                 instructions: Some(instructions),
             };
-            let mut scene = build_with::<3>(&scenario, &computing);
-            let (state, solver) = (&mut scene.state, &mut scene.solver);
-            solver
-                .start(state)
-                .unwrap_or_else(|fault| panic!("{fault}"));
-            // the step and the order after each sort
-            let mut orders = vec![(0, order(state))];
-            for step in 1..=80 {
-                solver
-                    .step(state, 0.01)
-                    .unwrap_or_else(|fault| panic!("{fault}"));
-                let now = order(state);
-                if orders.last().is_none_or(|(_, last)| *last != now) {
-                    orders.push((step, now));
-                }
-            }
-            let bits: Vec<_> = state.bodies.iter().map(bits_of).collect();
-            (orders, bits)
+            run::<3>(&scenario, 80, 0.01, &computing)
         };
         let four = run(Instructions::Wide);
         let eight = run(Instructions::Widest);
-        let sorts: Vec<_> = four.0.iter().map(|(step, _)| *step).collect();
+        let sorts: Vec<_> = four.orders.iter().map(|(step, _)| *step).collect();
         // fastest is 3 m/s: no point is a cell away from its block before step 33
         assert!(sorts[1] < 33, "no sort is early: {sorts:?}");
         assert!(four == eight, "eight at a time give other bits: {update}");

@@ -2,15 +2,11 @@
 
 use super::Real;
 
-/// The most terms.
-const MOST: usize = 16;
-
 /// Σ terms[n] xⁿ. Neighbours are summed first, then pairs of them, and so on (Estrin's scheme): what takes time is the chain of
 /// operations that wait for each other, and this has log₂ N in place of N.
 #[inline(always)]
 pub(super) fn polynomial<R: Real, const N: usize>(x: R, terms: &[f64; N]) -> R {
-    const { assert!(N > 0 && N <= MOST) };
-    let mut sums = [R::splat(0.0); MOST];
+    let mut sums = [R::splat(0.0); N];
     for n in 0..N {
         sums[n] = R::splat(terms[n]);
     }

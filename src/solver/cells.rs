@@ -1,15 +1,14 @@
 //! Which cell and block a point is counted to, and in which order the points of a block are stored.
 
 use super::disjoint::Disjoint;
+use crate::grid::Geometry;
 use crate::math::Vector;
 
 /// Where the points of a body are counted to.
-pub(super) struct Places<const D: usize> {
-    /// Lower corner of the grid, m, and 1 / cell size, 1/m.
-    pub(super) min: Vector<D>,
+pub(super) struct Places<'a, const D: usize> {
+    pub(super) geometry: &'a Geometry<D>,
+    /// 1 / cell size, 1/m.
     pub(super) inverse: f64,
-    /// Cells of the grid.
-    pub(super) cells: [i32; D],
     /// Where stencils start relative to their point, in cells, and the last place at which they do.
     pub(super) shift: [f64; D],
     pub(super) last: [i32; D],
@@ -17,23 +16,18 @@ pub(super) struct Places<const D: usize> {
     pub(super) exponent: u32,
 }
 
-impl<const D: usize> Places<D> {
-    #[inline(always)]
-    fn in_cells(&self, position: &Vector<D>) -> [f64; D] {
-        std::array::from_fn(|a| (position[a] - self.min[a]) * self.inverse)
-    }
-
+impl<const D: usize> Places<'_, D> {
     /// Whether a position is in the grid; false if it is not a number.
     #[inline(always)]
     pub(super) fn holds(&self, position: &Vector<D>) -> bool {
-        let x = self.in_cells(position);
-        (0..D).all(|a| x[a] >= 0.0 && x[a] <= f64::from(self.cells[a]))
+        let x = self.geometry.in_cells(position, self.inverse);
+        (0..D).all(|a| x[a] >= 0.0 && x[a] <= f64::from(self.geometry.cells[a]))
     }
 
     /// The first node of the stencil of a point in the grid.
     #[inline(always)]
     fn first(&self, position: &Vector<D>) -> [i32; D] {
-        let x = self.in_cells(position);
+        let x = self.geometry.in_cells(position, self.inverse);
         std::array::from_fn(|a| ((x[a] + self.shift[a]) as i32).min(self.last[a]))
     }
 
@@ -107,7 +101,7 @@ fn lay_out_cells<const D: usize>(cells: &mut [Cell], first: u32) {
 /// # Safety
 /// Nobody else uses these slots meanwhile.
 pub(super) unsafe fn order_block<const D: usize>(
-    places: &Places<D>,
+    places: &Places<'_, D>,
     positions: &[Vector<D>],
     rows: &[u32],
     first: u32,
@@ -125,7 +119,7 @@ pub(super) unsafe fn order_block<const D: usize>(
 
 /// [`order_block`] for a block with so many cells or fewer.
 unsafe fn order_cells<const D: usize, const CELLS: usize>(
-    places: &Places<D>,
+    places: &Places<'_, D>,
     positions: &[Vector<D>],
     rows: &[u32],
     first: u32,
@@ -155,10 +149,15 @@ mod tests {
     /// Cells of the points in the order in which they are stored, given how many points each cell has; points come cell by cell in
     /// turn, so that no cell's are together before.
     fn stored<const D: usize>(counts: &[usize]) -> Vec<usize> {
-        let places = Places::<D> {
+        let geometry = Geometry {
             min: Vector::zeros(),
-            inverse: 1.0,
+            cell_size: 1.0,
             cells: [4; D],
+            counts: [5; D],
+        };
+        let places = Places::<D> {
+            geometry: &geometry,
+            inverse: 1.0,
             shift: [0.0; D],
             last: [3; D],
             exponent: 2,

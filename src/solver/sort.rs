@@ -105,37 +105,12 @@ impl<const D: usize> Mpm<D> {
         result
     }
 
-    /// Moves the points of a body to the rows in `slots`.
-    fn move_rows(
-        &self,
-        body: &mut Body<D>,
-        slots: &mut [u32],
-        order: &mut Vec<u32>,
-        leaders: &mut Vec<u32>,
-    ) {
-        reorder::cycles(slots, order, leaders);
-        if order.is_empty() {
-            return;
-        }
-        let (particles, material) = (&mut body.particles, &mut body.material);
-        if self.parallel {
-            rayon::join(
-                || particles.permute(order, leaders, true),
-                || material.permute(order, leaders),
-            );
-        } else {
-            particles.permute(order, leaders, false);
-            material.permute(order, leaders);
-        }
-    }
-
     /// Where the points of a body are counted to.
-    fn places(&self, body: usize) -> Places<D> {
+    fn places(&self, body: usize) -> Places<'_, D> {
         let geometry = &self.geometry;
         Places {
-            min: geometry.min,
+            geometry,
             inverse: 1.0 / geometry.cell_size,
-            cells: geometry.cells,
             shift: self.kernels.shift(body),
             last: self.kernels.last_start(body, &geometry.cells),
             exponent: self.edge.ilog2(),
@@ -200,7 +175,19 @@ impl<const D: usize> Mpm<D> {
         if D > 1 {
             self.order_cells(index, &body.particles, blocks, slots, order);
         }
-        self.move_rows(body, slots, order, leaders);
+        reorder::cycles(slots, order, leaders);
+        if !order.is_empty() {
+            let (particles, material) = (&mut body.particles, &mut body.material);
+            if self.parallel {
+                rayon::join(
+                    || particles.permute(order, leaders, true),
+                    || material.permute(order, leaders),
+                );
+            } else {
+                particles.permute(order, leaders, false);
+                material.permute(order, leaders);
+            }
+        }
         Ok(())
     }
 
