@@ -316,6 +316,9 @@ fn left_to_a_box(left: f64, lines: &str, ratio: f64) -> (String, String) {
     let again = parse("again", &loaded.resolved_toml, &[]).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(again.scenario.method.frame, method.frame);
     assert_eq!(again.scenario.method.basis, method.basis);
+    assert_eq!(again.scenario.method.placement, method.placement);
+    let moments = [&loaded, &again].map(|of| of.scenario.bodies[0].moment);
+    assert_eq!(moments[0], moments[1]);
     (frame.into(), basis.into())
 }
 
@@ -372,4 +375,44 @@ fn the_scene_decides_on_frame_and_basis_that_nobody_names() {
         left_to_the_scene(&named("frame = \"updated\""), 0.3),
         updated("quadratic")
     );
+}
+
+#[test]
+fn points_of_the_total_frame_are_placed_for_bending_where_they_fill_cells() {
+    let placed = |method: &str, left: f64| {
+        let text = format!(
+            "dimension = 2\ntime = {{ end = 1, courant = 0.3 }}\n\
+             grid = {{ min = [0, 0], max = [1, 1], cell_size = 0.1 }}\n[method]\n{method}\n\
+             [material.soft]\ndensity = 1\nneo_hookean = {{ youngs_modulus = 1, poissons_ratio = 0.25 }}\n\
+             [[body]]\nname = \"a\"\nmaterial = \"soft\"\nshape.box = {{ min = [{left}, 0.0], max = [0.6, 0.5] }}\n"
+        );
+        let loaded = parse("scene", &text, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let scenario = &loaded.scenario;
+        (
+            scenario.method.placement.name(),
+            scenario.bodies[0].moment,
+            loaded.warnings.len(),
+        )
+    };
+    let (bending, even) = ("bending", "even");
+    // 1/(1 + 3/8 + 1/8) for hat functions, all of the cell's for splines
+    assert_eq!(placed("", 0.4), (bending, Some(1.0 / 1.5), 0));
+    let total = "frame = \"total\"\n";
+    for (basis, moment) in [
+        ("\"gimp\"", 1.0 / 1.5),
+        ("\"quadratic\"", 1.0),
+        ("\"cubic\"", 1.0),
+    ] {
+        let method = format!("{total}basis = {basis}");
+        assert_eq!(placed(&method, 0.4), (bending, Some(moment), 0));
+    }
+    let b_bar = format!("{total}basis.linear = {{ b_bar = true }}");
+    assert_eq!(placed(&b_bar, 0.4), (even, None, 0));
+    assert_eq!(placed("frame = \"updated\"", 0.4), (even, None, 0));
+    assert_eq!(placed("placement = \"even\"", 0.4), (even, None, 0));
+    // half a cell at one end; who asks for it all the same is told
+    assert_eq!(placed("", 0.45), (even, None, 0));
+    let asked = format!("{total}placement = \"bending\"");
+    assert_eq!(placed(&asked, 0.45), (bending, None, 1));
+    assert_eq!(placed(&asked, 0.4), (bending, Some(1.0 / 1.5), 0));
 }

@@ -322,7 +322,8 @@ fn gimp_is_the_linear_basis_where_no_point_reaches_beyond_its_cell() {
 fn across_over_along(half: &str, update: &str) -> f64 {
     let overrides = [
         "time.end=\"4 ms\"".to_string(),
-        "method={ frame = \"total\", basis = \"gimp\", transfer = \"apic\" }".into(),
+        "method={ frame = \"total\", basis = \"gimp\", transfer = \"apic\", placement = \"even\" }"
+            .into(),
         format!("method.update=\"{update}\""),
         format!("body[0].shape.box.min=[0, \"-{half}\"]"),
         format!("body[0].shape.box.max=[\"L\", \"{half}\"]"),

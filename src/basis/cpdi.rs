@@ -46,6 +46,8 @@ impl Parameters for Cpdi {
 }
 
 impl Basis<3> for Cpdi {
+    const BENDS: bool = false;
+
     /// Let the lower end lie in cell m, `s` above node m; the upper end is u = s + 2l above it. The hats of m, m + 1 and m + 2
     /// are 1 − s, s, 0 at the lower end; at the upper one they are max(0, 1 − u), what the other two leave of one, max(0, u − 1).
     #[inline(always)]

@@ -30,6 +30,8 @@ impl Parameters for Gimp {
 }
 
 impl Basis<3> for Gimp {
+    const BENDS: bool = false;
+
     /// Let the lower end of the point lie in cell m, `1 − s` below node m + 1. Of the width 2l, q = min(1 − s, 2l) lies in
     /// cell m and r = 2l − q in cell m + 1; e = max(0, 1 − s − 2l) is what the upper end lacks to reach node m + 1.
     /// The hat of node m falls over q to e: its mean is q (e + q/2) / (2l) = e + q²/(4l), since q = 2l wherever e > 0. The hat

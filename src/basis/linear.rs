@@ -29,6 +29,7 @@ impl Parameters for Linear {
 impl Basis<2> for Linear {
     const AFFINE_IS_SLOPE: bool = true;
     const SLOPES_JUMP: bool = true;
+    const BENDS: bool = false;
 
     #[inline(always)]
     fn functions<R: Real>(&self, s: R) -> Functions<R, 2> {

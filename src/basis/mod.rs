@@ -93,6 +93,9 @@ pub trait Basis<const N: usize>: Copy + Send + Sync + 'static {
     /// told to strain by a node that has no mass.
     const SLOPES_JUMP: bool = false;
 
+    /// Whether a function can be bent within a cell, as x² is: hat functions, and means of them, are not.
+    const BENDS: bool = true;
+
     /// Whether changes of volume are those at the middle of the cell (B̄), for functions that lock otherwise: then stencils are the
     /// nodes of one cell.
     #[inline(always)]
@@ -174,6 +177,11 @@ macro_rules! bases {
             /// Whether changes of volume are those at the middle of the cell, see [`Basis::dilation_at_centre`].
             pub fn dilation_at_centre(&self) -> bool {
                 match self { $(Self::$basis(basis) => Basis::<$n>::dilation_at_centre(basis)),* }
+            }
+
+            /// Whether functions can be bent within a cell, see [`Basis::BENDS`].
+            pub fn bends(&self) -> bool {
+                match self { $(Self::$basis(_) => <$basis as Basis<$n>>::BENDS),* }
             }
 
             /// Calls the visitor with the basis and its number of nodes an axis.

@@ -287,9 +287,10 @@ fn loads<const D: usize>(
         body: spec.body,
         points: chosen.iter().map(|&p| p as u32).collect(),
         offset: side.map_or(Vector::zeros(), |side| {
-            // a loaded face lies half a spacing outside its points
+            // a loaded face lies outside its points
             let mut offset = Vector::zeros();
-            offset[side.axis] = if side.upper { 0.5 } else { -0.5 } * set.spacing[side.axis];
+            let outwards = if side.upper { 1.0 } else { -1.0 };
+            offset[side.axis] = outwards * set.to_face[side.axis];
             offset
         }),
         force,

@@ -8,7 +8,7 @@ mod faces;
 pub use faces::{Faces, loaded_faces};
 
 use super::shape::Shape;
-use super::{GridSpec, LoadPlace, Region, Scenario};
+use super::{BodySpec, GridSpec, LoadPlace, Region, Scenario};
 use crate::boundary::Side;
 use crate::material::Plane;
 use rayon::prelude::*;
@@ -19,8 +19,10 @@ use std::f64::consts::PI;
 pub struct PointSet {
     /// Positions, m; axes that the scene does not have are zero.
     pub positions: Vec<[f64; 3]>,
-    /// Distance between neighbours on each axis, m; 1 m on axes that the scene does not have.
+    /// Distance between neighbours on each axis, m, their mean if they are drawn together; 1 m on axes that the scene does not have.
     pub spacing: [f64; 3],
+    /// Distance of the outermost points from the faces of a box on each axis, m; half a spacing of points in even distances.
+    pub to_face: [f64; 3],
     /// What each point stands for: a volume, m³, or an area, m², of the half plane of an axisymmetric scene.
     cell: f64,
     /// Whether points are rings around x = 0.
@@ -47,7 +49,8 @@ impl PointSet {
         if !self.rings {
             return face;
         }
-        let half = if side.upper { 0.5 } else { -0.5 } * self.spacing[0];
+        let outwards = if side.upper { 1.0 } else { -1.0 };
+        let half = outwards * self.to_face[0];
         let radius = self.positions[index][0] + if side.axis == 0 { half } else { 0.0 };
         2.0 * PI * radius.max(0.0) * face
     }
@@ -115,13 +118,7 @@ pub fn body_point_count(scenario: &Scenario, body: usize) -> u64 {
 }
 
 fn body_filling(scenario: &Scenario, body: usize) -> Filling<'_> {
-    let body = &scenario.bodies[body];
-    Filling::new(
-        &body.shape,
-        &scenario.grid,
-        &body.particles_per_cell,
-        scenario.plane,
-    )
+    Filling::of(&scenario.bodies[body], &scenario.grid, scenario.plane)
 }
 
 /// A shape and the lattice that fills it: what can be said before any memory is taken.
@@ -136,9 +133,21 @@ pub struct Filling<'a> {
     /// Lattice cells that may hold points: `first .. first + count` on each axis.
     first: [u64; 3],
     count: [u64; 3],
+    /// Points of a cell of the grid along each axis, and what their distances from its middle are multiplied with.
+    per_cell: [u64; 3],
+    drawn: [f64; 3],
 }
 
 impl<'a> Filling<'a> {
+    /// The points of a body.
+    pub fn of(body: &'a BodySpec, grid: &GridSpec, plane: Plane) -> Self {
+        let filling = Self::new(&body.shape, grid, &body.particles_per_cell, plane);
+        match body.moment {
+            Some(moment) if filling.fills_cells(grid) => filling.with_moment(moment),
+            _ => filling,
+        }
+    }
+
     /// Lays the lattice for a shape.
     pub fn new(shape: &'a Shape, grid: &GridSpec, per_cell: &[u32], plane: Plane) -> Self {
         let dimension = grid.min.len();
@@ -150,7 +159,12 @@ impl<'a> Filling<'a> {
             spacing: [1.0; 3],
             first: [0; 3],
             count: [1; 3],
+            per_cell: [1; 3],
+            drawn: [1.0; 3],
         };
+        for (axis, count) in per_cell.iter().enumerate() {
+            filling.per_cell[axis] = u64::from(*count);
+        }
         let bounds = shape.bounds();
         for axis in 0..dimension {
             let (min, max, per_cell) = (
@@ -238,6 +252,7 @@ impl<'a> Filling<'a> {
         let mut points = PointSet {
             positions,
             spacing: self.spacing,
+            to_face: std::array::from_fn(|axis| self.to_face(axis)),
             cell: self.cell(),
             rings: self.rings,
         };
@@ -269,13 +284,55 @@ impl<'a> Filling<'a> {
         })
     }
 
+    /// Whether this is a box of whole cells of the grid with two points along each axis of a cell or more.
+    pub fn fills_cells(&self, grid: &GridSpec) -> bool {
+        let whole = |x: f64| (x - x.round()).abs() < 1e-9 * x.abs().max(1.0);
+        matches!(self.shape, Shape::Cuboid(_))
+            && self.divides_cells(grid)
+            && (0..self.dimension).all(|axis| {
+                let per_cell = self.per_cell[axis];
+                let width = self.spacing[axis] * per_cell as f64;
+                per_cell > 1
+                    && self.count[axis].is_multiple_of(per_cell)
+                    && (width / grid.cell_size - 1.0).abs() < 1e-9
+                    && whole((self.origin[axis] - grid.min[axis]) / grid.cell_size)
+            })
+    }
+
+    /// The same with this second moment of the points of a cell about its middle, in parts of that of the cell: p points in even distances
+    /// have 1 − 1/p².
+    fn with_moment(mut self, moment: f64) -> Self {
+        for axis in 0..self.dimension {
+            let even = 1.0 - (self.per_cell[axis] as f64).powi(-2);
+            self.drawn[axis] = (moment / even).sqrt();
+        }
+        self
+    }
+
     /// Length, area or volume of a lattice cell.
     fn cell(&self) -> f64 {
         self.spacing.iter().product()
     }
 
     fn coordinate(&self, axis: usize, index: u64) -> f64 {
-        self.origin[axis] + (index as f64 + 0.5) * self.spacing[axis]
+        if self.drawn[axis] == 1.0 {
+            return self.origin[axis] + (index as f64 + 0.5) * self.spacing[axis];
+        }
+        let half = 0.5 * self.per_cell[axis] as f64;
+        let middle = (index - index % self.per_cell[axis]) as f64 + half;
+        let from_middle = index as f64 + 0.5 - middle;
+        self.origin[axis] + (middle + self.drawn[axis] * from_middle) * self.spacing[axis]
+    }
+
+    /// How far the outermost points lie from the faces of a box, m.
+    fn to_face(&self, axis: usize) -> f64 {
+        let half = 0.5 * self.per_cell[axis] as f64;
+        let inside = self.drawn[axis] * (half - 0.5);
+        if self.drawn[axis] == 1.0 {
+            0.5 * self.spacing[axis]
+        } else {
+            (half - inside) * self.spacing[axis]
+        }
     }
 
     fn inside_count(&self, first: [u64; 3], count: [u64; 3]) -> u64 {

@@ -6,11 +6,13 @@
 mod check;
 mod fill;
 mod load;
+mod placement;
 pub mod shape;
 
 pub use crate::boundary::Side;
 pub use fill::{Faces, Filling, PointSet, body_point_count, body_points, loaded_faces};
 pub use load::{InputError, Loaded, load, parse};
+pub use placement::{Placement, bending_moment};
 
 use crate::basis::BasisChoice;
 use crate::boundary::ConditionChoice;
@@ -93,6 +95,8 @@ pub struct Method {
     pub update: Scheme,
     /// Which configuration the shape functions belong to.
     pub frame: ReferenceFrame,
+    /// Where in their cells points lie before the first step.
+    pub placement: Placement,
     /// What the file leaves to the scene.
     pub chosen: Vec<Chosen>,
 }
@@ -100,7 +104,7 @@ pub struct Method {
 /// A key of the method that the file leaves out, and what this scene gets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chosen {
-    /// `frame` or `basis`.
+    /// `frame`, `basis` or `placement`.
     pub key: &'static str,
     /// What it is.
     pub value: &'static str,
@@ -190,6 +194,8 @@ pub struct BodySpec {
     pub shape: shape::Shape,
     /// Points per cell along each axis.
     pub particles_per_cell: Vec<u32>,
+    /// Second moment of the points of a cell about its middle, in parts of that of the cell; none where they are placed evenly.
+    pub moment: Option<f64>,
     /// Initial velocity, m/s, one expression of x, y, z (at t = 0) an axis.
     pub velocity: Vec<Expression>,
 }

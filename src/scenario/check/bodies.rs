@@ -79,6 +79,7 @@ fn body(
         material: material.unwrap_or(0),
         shape: shape?,
         particles_per_cell: per_cell?.iter().map(|count| *count as u32).collect(),
+        moment: None,
         velocity: velocity?,
     };
     let points = grid.and_then(|grid| count(reader, &body, grid, frame));
@@ -114,7 +115,7 @@ fn count(reader: &mut Reader<'_>, body: &BodySpec, grid: &GridSpec, frame: Frame
     if !inside {
         return None;
     }
-    let filling = Filling::new(&body.shape, grid, &body.particles_per_cell, frame.plane);
+    let filling = Filling::of(body, grid, frame.plane);
     if filling.candidates() > MOST_CANDIDATES {
         return None;
     }

@@ -11,7 +11,8 @@ use crate::basis::{BasisChoice, Gimp, Linear, QuadraticBSpline};
 use crate::material::Plane;
 use crate::scenario::fill::Filling;
 use crate::scenario::{
-    BodySpec, BoundarySpec, Chosen, GridSpec, MaterialSpec, Method, ReferenceFrame, Region,
+    BodySpec, BoundarySpec, Chosen, GridSpec, MaterialSpec, Method, Placement, ReferenceFrame,
+    Region, bending_moment,
 };
 
 /// Poisson's ratio from which on hat functions are too stiff: they reach 9 tenths of a deflection at 0.45, 6 at 0.49.
@@ -54,10 +55,8 @@ pub(super) fn method(given: &GivenMethod, scene: &Surroundings<'_>) -> Method {
         .filter_map(|material| material.poissons_ratio)
         .any(|ratio| ratio >= LOCKS);
     let inside_cells = || {
-        let divides = |body: &BodySpec| {
-            let per_cell = &body.particles_per_cell;
-            Filling::new(&body.shape, scene.grid, per_cell, scene.plane).divides_cells(scene.grid)
-        };
+        let divides =
+            |body: &BodySpec| Filling::of(body, scene.grid, scene.plane).divides_cells(scene.grid);
         let mut bodies = scene.bodies.iter();
         bodies.all(|body| body.is_some_and(divides))
     };
@@ -80,6 +79,17 @@ pub(super) fn method(given: &GivenMethod, scene: &Surroundings<'_>) -> Method {
         ),
     };
     let basis = given.basis.unwrap_or(chosen_basis);
+    let bends = frame == ReferenceFrame::Total
+        && scene
+            .bodies
+            .iter()
+            .flatten()
+            .any(|body| moment(body, &basis, scene).is_some());
+    let placement = given.placement.unwrap_or(if bends {
+        Placement::Bending
+    } else {
+        Placement::Even
+    });
     let mut chosen = Vec::new();
     if free {
         chosen.push(Chosen {
@@ -95,13 +105,33 @@ pub(super) fn method(given: &GivenMethod, scene: &Surroundings<'_>) -> Method {
             why: why_basis,
         });
     }
+    if given.placement.is_none() && bends {
+        chosen.push(Chosen {
+            key: "placement",
+            value: placement.name(),
+            why: "points that keep their places in cells bend them as softly as the material",
+        });
+    }
     Method {
         basis,
         transfer: given.transfer,
         update: given.update,
         frame,
+        placement,
         chosen,
     }
+}
+
+/// The second moment of a body's points in their cells that suits bending, if it can have one.
+pub(super) fn moment(
+    body: &BodySpec,
+    basis: &BasisChoice,
+    scene: &Surroundings<'_>,
+) -> Option<f64> {
+    let material = scene.materials.get(body.material)?;
+    let moment = bending_moment(basis, material, scene.grid.min.len(), scene.plane)?;
+    let filling = Filling::of(body, scene.grid, scene.plane);
+    filling.fills_cells(scene.grid).then_some(moment)
 }
 
 /// Whether the only body touches nothing but what holds it from the start on, and a few words on why.

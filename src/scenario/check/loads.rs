@@ -78,7 +78,7 @@ fn load(
             points: Some(_),
         }) = &bodies[body].found
     {
-        let filling = Filling::new(&body.shape, grid, &body.particles_per_cell, frame.plane);
+        let filling = Filling::of(body, grid, frame.plane);
         check_reach(reader, &body.name, &filling, &on, kind.as_ref());
     }
     Some(LoadSpec {

@@ -11,7 +11,7 @@ mod numerics;
 mod records;
 mod size;
 
-use super::{BodySpec, GridSpec, Method, ReferenceFrame, Region, Scenario};
+use super::{BodySpec, GridSpec, Method, Placement, ReferenceFrame, Region, Scenario};
 use crate::boundary::Side;
 use crate::input::{Document, Reader, Unit, nearest};
 use crate::material::Plane;
@@ -81,10 +81,11 @@ pub(super) fn scenario(
     let (grid, grid_reader) = numerics::grid(&mut root, frame);
     let given = numerics::method(&mut root);
     let materials = materials::materials(&mut root, document, frame, warnings);
-    let bodies = bodies::bodies(&mut root, document, frame, grid.as_ref(), &materials);
+    let mut bodies = bodies::bodies(&mut root, document, frame, grid.as_ref(), &materials);
     let basis = given.as_ref().map(defaults::basis_before_all);
     let boundaries = boundaries::boundaries(&mut root, frame, grid.as_ref(), basis);
     let damping = loads::damping(&mut root);
+    let mut moments = Vec::new();
     let method = match (&given, &grid) {
         (Some(given), Some(grid)) => {
             let found = bodies.iter().map(|named| named.found.as_ref());
@@ -96,10 +97,21 @@ pub(super) fn scenario(
                 plane: frame.plane,
                 damping: damping.unwrap_or_default(),
             };
-            Some(defaults::method(given, &scene))
+            let method = defaults::method(given, &scene);
+            if method.placement == Placement::Bending {
+                let moment = |body: &BodySpec| defaults::moment(body, &method.basis, &scene);
+                let bodies = scene.bodies.iter();
+                moments.extend(bodies.map(|body| body.and_then(moment)));
+            }
+            Some(method)
         }
         _ => None,
     };
+    for (named, moment) in bodies.iter_mut().zip(moments) {
+        if let Some(counted) = &mut named.found {
+            counted.body.moment = moment;
+        }
+    }
     if let (Some(grid), Some(mut reader)) = (&grid, grid_reader) {
         let total = method
             .as_ref()
@@ -123,6 +135,7 @@ pub(super) fn scenario(
     if let (Some(method), Some(boundaries)) = (&method, &boundaries) {
         numerics::warn_of_method(method, warnings);
         numerics::warn_of_frame(method, &bodies, boundaries, warnings);
+        numerics::warn_of_placement(method, &bodies, warnings);
     }
 
     let (end, step) = time?;

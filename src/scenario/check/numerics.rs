@@ -4,7 +4,9 @@ use super::{AXES, CountedBody, Frame, Named, shown};
 use crate::basis::BasisChoice;
 use crate::input::{Bound, Reader, Unit};
 use crate::material::Plane;
-use crate::scenario::{BoundarySpec, GridSpec, Method, ReferenceFrame, Scheme, StepRule};
+use crate::scenario::{
+    BoundarySpec, GridSpec, Method, Placement, ReferenceFrame, Scheme, StepRule,
+};
 use crate::transfer::TransferChoice;
 
 /// More steps than this end with no computer.
@@ -175,6 +177,7 @@ pub(super) struct GivenMethod {
     pub(super) transfer: TransferChoice,
     pub(super) update: Scheme,
     pub(super) frame: Option<ReferenceFrame>,
+    pub(super) placement: Option<Placement>,
 }
 
 /// The numerical method, as far as the file says it.
@@ -237,6 +240,24 @@ pub(super) fn warn_of_frame(
     }
 }
 
+/// Warns of bodies that keep even distances between their points though others were asked for.
+pub(super) fn warn_of_placement(
+    method: &Method,
+    bodies: &[Named<CountedBody>],
+    warnings: &mut Vec<String>,
+) {
+    if method.placement == Placement::Even {
+        return;
+    }
+    let bodies = bodies.iter().filter_map(|named| named.found.as_ref());
+    for counted in bodies.filter(|counted| counted.body.moment.is_none()) {
+        warnings.push(format!(
+            "method.placement: \"bending\" does nothing for the body \"{}\": it is for boxes of whole cells in 2D and 3D with two points or more along each axis of a cell, and not for b_bar",
+            counted.body.name
+        ));
+    }
+}
+
 fn choices(reader: &mut Reader<'_>) -> Option<GivenMethod> {
     let basis = if reader.has("basis") {
         let named = reader.name_or_table("basis", BasisChoice::NAMES);
@@ -263,6 +284,17 @@ fn choices(reader: &mut Reader<'_>) -> Option<GivenMethod> {
             "a point that comes into a cell would push at nodes that have none of its mass; add frame = \"total\", or take basis = \"quadratic\", which does not lock",
         );
     }
+    let placement = if reader.has("placement") {
+        Some(reader.choice("placement", &Placement::NAMES, None))
+    } else {
+        None
+    };
+    if placement == Some(Some("bending")) && !total {
+        reader.problem(
+            "placement",
+            "points that move through cells keep no place in them; add frame = \"total\", or remove this key",
+        );
+    }
     let update = match update? {
         "usf" => Scheme::UpdateStressFirst,
         "usl" => Scheme::UpdateStressLast,
@@ -280,6 +312,13 @@ fn choices(reader: &mut Reader<'_>) -> Option<GivenMethod> {
             Some(read) => Some(match read? {
                 "total" => ReferenceFrame::Total,
                 _ => ReferenceFrame::Updated,
+            }),
+            None => None,
+        },
+        placement: match placement {
+            Some(read) => Some(match read? {
+                "bending" => Placement::Bending,
+                _ => Placement::Even,
             }),
             None => None,
         },

@@ -25,7 +25,7 @@ pub(super) fn check(
     let mut uncountable = false;
     for counted in bodies.iter().filter_map(|named| named.found.as_ref()) {
         let body = &counted.body;
-        let filling = Filling::new(&body.shape, grid, &body.particles_per_cell, frame.plane);
+        let filling = Filling::of(body, grid, frame.plane);
         points += counted
             .points
             .map_or(filling.estimate(), |points| points as f64);

@@ -10,7 +10,7 @@ use crate::scenario::shape::Shape;
 use crate::scenario::{LoadKind, LoadPlace, LoadSpec, Scenario};
 use rayon::prelude::*;
 
-/// Loaded faces that look towards the same side. Their centres lie half a spacing from their points.
+/// Loaded faces that look towards the same side. Their centres lie [`PointSet::to_face`] from their points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Faces {
     /// Where they look.

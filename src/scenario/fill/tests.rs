@@ -4,7 +4,7 @@ use super::{Filling, PointSet};
 use crate::boundary::Side;
 use crate::material::Plane;
 use crate::scenario::shape::{Ball, Cuboid, Shape};
-use crate::scenario::{GridSpec, LoadPlace, Region};
+use crate::scenario::{BodySpec, GridSpec, LoadPlace, Region};
 
 fn grid(cells: &[i32], cell_size: f64) -> GridSpec {
     let max = cells
@@ -62,6 +62,51 @@ fn points_tile_a_box_exactly() {
         points.positions.is_sorted_by(|a, b| a < b),
         "lexicographic order"
     );
+}
+
+#[test]
+fn points_of_whole_cells_get_the_second_moment_asked_for() {
+    let grid = grid(&[4, 4, 4], 0.5);
+    let placed = |shape: Shape, per_cell: [u32; 3], moment| {
+        let body = BodySpec {
+            name: "box".into(),
+            material: 0,
+            shape,
+            particles_per_cell: per_cell.to_vec(),
+            moment,
+            velocity: Vec::new(),
+        };
+        Filling::of(&body, &grid, Plane::Strain).points()
+    };
+    let whole = || cuboid(&[0.5, 0.0, 1.0], &[1.5, 2.0, 1.5]);
+    for moment in [0.5, 0.63, 0.7, 1.0] {
+        let points = placed(whole(), [2, 3, 4], Some(moment));
+        assert_eq!(points.positions.len(), 4 * 12 * 4);
+        assert!(points.positions.is_sorted_by(|a, b| a < b));
+        for axis in 0..3 {
+            let square = |at: &[f64; 3]| ((at[axis] / 0.5).fract() - 0.5).powi(2);
+            let mean = points.positions.iter().map(square).sum::<f64>() / 192.0;
+            approx::assert_relative_eq!(12.0 * mean, moment, max_relative = 1e-12);
+            let upper = points.positions.iter().map(|at| at[axis]);
+            let outermost = upper.fold(0.0, f64::max) + points.to_face[axis];
+            approx::assert_relative_eq!(outermost, [1.5, 2.0, 1.5][axis], max_relative = 1e-14);
+        }
+        approx::assert_relative_eq!(total(&points), 1.0, max_relative = 1e-14);
+    }
+    // half cells, cells of one point and other shapes keep what they had
+    let half = || cuboid(&[0.25, 0.0, 1.0], &[1.25, 2.0, 1.5]);
+    let ball = || ball(&[1.0, 1.0, 1.0], 0.5);
+    for (shape, per_cell) in [
+        (&half as &dyn Fn() -> Shape, [2, 2, 2]),
+        (&whole, [2, 1, 2]),
+        (&ball, [2, 2, 2]),
+    ] {
+        let (even, drawn) = (
+            placed(shape(), per_cell, None),
+            placed(shape(), per_cell, Some(0.6)),
+        );
+        assert_eq!(even, drawn);
+    }
 }
 
 #[test]

@@ -14,10 +14,11 @@
 //! Theories of beams approach it. Timoshenko's, with the modulus E′ = E/(1 − ν²) and a share κ = 5/(6 − ν) of the section in shear,
 //! has the first two terms in (kc)² and is 0.02 % off in mode 3; Euler and Bernoulli's ω = k² √(E′I/ρA) is 1.7, 6.6 and 14 % high.
 //!
-//! **What the grid adds**, p ≥ 2 points a cell and axis, to the order of h² where the beam is slender (derived here): points lie in layers
-//! h/p apart, whose second moment is short of H³/12 by (h/pH)². Hat functions cannot bend: in a cell that is bent, the shear and the
-//! strain across keep their means and err by what the strain along varies, which is worth (1 − 1/p²)(G/E′ + M/E′ − 1)(h/H)² of the
-//! stiffness, M the modulus of pressure waves. Half of either is the frequency's. All else goes with (kh)², as in a bar.
+//! **What the grid adds**, p ≥ 2 points a cell and axis, to the order of h² where the beam is slender (derived in
+//! `scenario/placement.rs`): with m the second moment of the points of a cell in parts of the cell's, 1 − 1/p² in even distances, that of
+//! all layers of points is short of H³/12 by (1 − m)(h/H)². Hat functions cannot bend, which is worth m c (h/H)² of the
+//! stiffness, c = G/E′ + M/E′ − 1, M the modulus of pressure waves. Half of either is the frequency's. All else goes with (kh)², as in a
+//! bar. Points placed for bending have m = 1/(1 + c), or 1/2 if that is more, and splines m = 1: nothing is left.
 //!
 //! With one point a cell there are fewer layers of points than rows of nodes, whose velocities are then tied to each other: it is
 //! another method, and neither sum holds.
@@ -27,6 +28,7 @@ use super::history::frequency_near;
 use super::problem::{SECOND_ORDER, displacement_error};
 use super::{Case, CaseError, Layout, Problem, Report};
 use crate::report::{LineChart, Style};
+use crate::scenario::Placement;
 use std::f64::consts::{PI, TAU};
 
 /// The case.
@@ -69,21 +71,25 @@ const POISSON: f64 = 0.3;
 const DENSITY: f64 = 7850.0;
 const V0: f64 = 1e-6;
 
-/// Half waves over a length, m.
+/// Half waves over a length, m, in steel of this Poisson's ratio.
+#[derive(Clone, Copy)]
 struct Waves {
     number: u32,
     length: f64,
+    poisson: f64,
 }
 
 const HALF: Waves = Waves {
     number: 1,
     length: 0.5,
+    poisson: POISSON,
 };
 
-fn whole(number: u32) -> Waves {
+const fn whole(number: u32, poisson: f64) -> Waves {
     Waves {
         number,
         length: 1.0,
+        poisson,
     }
 }
 
@@ -102,10 +108,11 @@ impl Mode {
         let k = f64::from(waves.number) * PI / waves.length;
         let half = 0.5 * HEIGHT;
         // zero at no frequency at all, and again at the one that is sought
-        let (mut low, mut high) = (0.5 * euler(k), euler(k));
+        let nu = waves.poisson;
+        let (mut low, mut high) = (0.5 * euler(k, nu), euler(k, nu));
         for _ in 0..80 {
             let omega = 0.5 * (low + high);
-            let [a, b] = decay(k, omega);
+            let [a, b] = decay(k, omega, nu);
             let pull = (k * k + b * b).powi(2) * (a * half).tanh();
             if pull < 4.0 * k * k * a * b * (b * half).tanh() {
                 low = omega;
@@ -114,7 +121,7 @@ impl Mode {
             }
         }
         let omega = 0.5 * (low + high);
-        let [a, b] = decay(k, omega);
+        let [a, b] = decay(k, omega, nu);
         let (pressure, shear) = (
             (k * k + b * b) * (b * half).cosh(),
             -2.0 * k * a * (a * half).cosh(),
@@ -143,28 +150,32 @@ impl Mode {
 }
 
 /// Of pressure and of shear waves, Pa.
-fn moduli() -> [f64; 2] {
-    let shear = 0.5 * YOUNG / (1.0 + POISSON);
+fn moduli(nu: f64) -> [f64; 2] {
+    let shear = 0.5 * YOUNG / (1.0 + nu);
     [
-        2.0 * shear * (1.0 - POISSON) / (1.0 - 2.0 * POISSON),
+        2.0 * shear * (1.0 - nu) / (1.0 - 2.0 * nu),
         shear,
     ]
 }
 
-fn decay(k: f64, omega: f64) -> [f64; 2] {
-    moduli().map(|modulus| (k * k - omega * omega * DENSITY / modulus).sqrt())
+fn decay(k: f64, omega: f64, nu: f64) -> [f64; 2] {
+    moduli(nu).map(|modulus| (k * k - omega * omega * DENSITY / modulus).sqrt())
+}
+
+/// E′ = E/(1 − ν²), Pa.
+fn in_bending(nu: f64) -> f64 {
+    YOUNG / (1.0 - nu * nu)
 }
 
 /// Euler and Bernoulli's ω, rad/s.
-fn euler(k: f64) -> f64 {
-    let modulus = YOUNG / (1.0 - POISSON * POISSON);
-    k * k * HEIGHT * (modulus / DENSITY / 12.0).sqrt()
+fn euler(k: f64, nu: f64) -> f64 {
+    k * k * HEIGHT * (in_bending(nu) / DENSITY / 12.0).sqrt()
 }
 
 /// Timoshenko's ω, rad/s: the lower root of (k²s − ω²)(k²e + s/r² − ω²) = k²s²/r² with s = κG/ρ, e = E′/ρ, r² = H²/12.
 fn timoshenko(k: f64) -> f64 {
-    let shear = 5.0 / (6.0 - POISSON) * moduli()[1] / DENSITY;
-    let modulus = YOUNG / (1.0 - POISSON * POISSON) / DENSITY;
+    let shear = 5.0 / (6.0 - POISSON) * moduli(POISSON)[1] / DENSITY;
+    let modulus = in_bending(POISSON) / DENSITY;
     let inertia = shear * 12.0 / (HEIGHT * HEIGHT);
     let half = 0.5 * (k * k * (shear + modulus) + inertia);
     // the product of both roots over the larger one: their difference would cancel
@@ -179,10 +190,51 @@ fn overrides(waves: &Waves, cells: f64, periods: f64, rows: u32) -> Vec<String> 
         format!("grid.cell_size={}", HEIGHT / cells),
         format!("constants.L=\"{} m\"", waves.length),
         format!("constants.mode={}", waves.number),
+        format!("constants.nu={}", waves.poisson),
         format!("constants.omega=\"{:?} rad/s\"", mode.omega),
         format!("time.end={:?}", periods * period),
         format!("output.every={:?}", period / f64::from(rows)),
     ]
+}
+
+/// What is compared: a basis, with points that move through the grid in even distances, or in the total frame with others.
+#[derive(Clone, Copy)]
+struct Kind {
+    basis: &'static str,
+    placement: Placement,
+}
+
+impl Kind {
+    fn name(&self) -> String {
+        match self.placement {
+            Placement::Even => self.basis.into(),
+            Placement::Bending => format!("{}, placed for bending", self.basis),
+        }
+    }
+
+    /// The error of the frequency over (h/H)² of a slender beam with 2 points a cell and axis.
+    fn slender(&self, nu: f64) -> f64 {
+        let excess = match self.basis {
+            "linear" => moduli(nu).iter().sum::<f64>() / in_bending(nu) - 1.0,
+            _ => 0.0,
+        };
+        let moment = match self.placement {
+            Placement::Even => 1.0 - 1.0 / 4.0,
+            Placement::Bending => f64::max(1.0 / (1.0 + excess), 0.5),
+        };
+        0.5 * (moment * (1.0 + excess) - 1.0)
+    }
+}
+
+const KINDS: [Kind; 4] = [
+    kind("linear", Placement::Even),
+    kind("quadratic", Placement::Even),
+    kind("linear", Placement::Bending),
+    kind("quadratic", Placement::Bending),
+];
+
+const fn kind(basis: &'static str, placement: Placement) -> Kind {
+    Kind { basis, placement }
 }
 
 const MODES: [u32; 3] = [1, 2, 3];
@@ -190,7 +242,7 @@ const MODES: [u32; 3] = [1, 2, 3];
 const CELLS: [f64; 3] = [2.0, 4.0, 8.0];
 
 fn run(report: &mut Report) -> Result<(), CaseError> {
-    let modes = MODES.map(|number| Mode::new(&whole(number)));
+    let modes = MODES.map(|number| Mode::new(&whole(number, POISSON)));
     for (number, mode) in MODES.iter().zip(&modes) {
         // they part with the fourth power of kc, times 0.008 where it is small
         report.close(
@@ -201,7 +253,7 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
         );
     }
     let numbers = MODES.map(f64::from);
-    let beams = modes.each_ref().map(|mode| euler(mode.k));
+    let beams = modes.each_ref().map(|mode| euler(mode.k, POISSON));
     let share = |of: [f64; 3]| [0, 1, 2].map(|i| of[i] * modes[i].omega / beams[i]);
     let mut errors = Vec::new();
     let mut shown = vec![curve(
@@ -210,12 +262,9 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
         &share([1.0; 3]),
         Style::Dashed,
     )];
-    for basis in ["linear", "quadratic"] {
-        let mut wrong = |number: usize, cells: f64| -> Result<f64, CaseError> {
-            let mode = &modes[number - 1];
-            let omega = frequency(report, basis, cells, &whole(number as u32), mode)?;
-            Ok(omega / mode.omega - 1.0)
-        };
+    for kind in KINDS {
+        let (basis, slender) = (kind.name(), kind.slender(POISSON));
+        let mut wrong = |number, cells| wrong(report, &kind, cells, &whole(number, POISSON));
         let coarse = [wrong(1, CELLS[0])?, wrong(1, CELLS[1])?];
         let fine = [
             wrong(1, CELLS[2])?,
@@ -229,7 +278,7 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
             report.close(
                 format!("{basis}, 8 cells over the height, mode {number}: frequency / exact"),
                 1.0 + error,
-                1.0 + slender(basis) / (CELLS[2] * CELLS[2]),
+                1.0 + slender / (CELLS[2] * CELLS[2]),
                 theta * theta,
             );
         }
@@ -252,24 +301,37 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
         report.close(
             format!("{basis}: error of the frequency where the beam is slender / (h/H)^2"),
             (4.0 * fine[0] - fine[1]) / 3.0 * CELLS[2] * CELLS[2],
-            slender(basis),
+            slender,
             0.0125,
         );
+        let file = basis.replace([' ', ','], "_").replace("__", "_");
         report.table(
-            &format!("{basis}_mode_1"),
+            &format!("{file}_mode_1"),
             &[("cells", &CELLS), ("error", &first)],
         );
         report.table(
-            &format!("{basis}_8_cells"),
+            &format!("{file}_8_cells"),
             &[("mode", &numbers), ("error", &fine)],
         );
-        errors.push(curve(basis, &sizes, &size, Style::LineMarkers));
+        errors.push(curve(basis.clone(), &sizes, &size, Style::LineMarkers));
         shown.push(curve(
             format!("{basis}, 8 cells over the height"),
             &numbers,
             &share(fine.map(|error| 1.0 + error)),
             Style::Markers,
         ));
+    }
+    for (poisson, kind) in [0.0, 0.45].iter().flat_map(|nu| KINDS.map(|kind| (*nu, kind))) {
+        if kind.basis == "linear" {
+            let mut wrong = |number| wrong(report, &kind, CELLS[2], &whole(number, poisson));
+            let (first, second) = (wrong(1)?, wrong(2)?);
+            report.close(
+                format!("{}, ν = {poisson}: error where the beam is slender / (h/H)^2", kind.name()),
+                (4.0 * first - second) / 3.0 * CELLS[2] * CELLS[2],
+                kind.slender(poisson),
+                0.0125,
+            );
+        }
     }
     let errors = LineChart {
         x_log: true,
@@ -291,27 +353,19 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// The error of the frequency over (h/H)² of a slender beam with 2 points a cell and axis.
-fn slender(basis: &str) -> f64 {
-    let layers = -0.5 / 4.0;
-    let bent = YOUNG / (1.0 - POISSON * POISSON);
-    match basis {
-        "linear" => layers + 0.5 * (1.0 - 1.0 / 4.0) * (moduli().iter().sum::<f64>() / bent - 1.0),
-        _ => layers,
-    }
-}
-
-/// The angular frequency, rad/s, that two periods show.
-fn frequency(
-    report: &mut Report,
-    basis: &str,
-    cells: f64,
-    waves: &Waves,
-    mode: &Mode,
-) -> Result<f64, CaseError> {
+/// The relative error of the angular frequency that two periods show.
+fn wrong(report: &mut Report, kind: &Kind, cells: f64, waves: &Waves) -> Result<f64, CaseError> {
+    let mode = Mode::new(waves);
     let mut all = overrides(waves, cells, 2.0, 40);
+    let (basis, placement) = (kind.basis, kind.placement.name());
+    let frame = match kind.placement {
+        Placement::Even => "updated",
+        Placement::Bending => "total",
+    };
     all.extend([
         format!("method.basis=\"{basis}\""),
+        format!("method.frame=\"{frame}\""),
+        format!("method.placement=\"{placement}\""),
         "time.courant=0.8".into(),
     ]);
     let run = report.run_with_frames(SCENARIO, &all)?;
@@ -325,5 +379,6 @@ fn frequency(
     };
     let time: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
     let values: Vec<f64> = frames.iter().map(swing).collect();
-    Ok(TAU * frequency_near(&time, &values, 1.0 / mode.period()))
+    let omega = TAU * frequency_near(&time, &values, 1.0 / mode.period());
+    Ok(omega / mode.omega - 1.0)
 }

@@ -39,7 +39,7 @@ pub const PROBLEM: Problem = Problem {
         });
         (error / size).sqrt()
     },
-    cells: |_| &[4, 6, 8, 12],
+    cells: |_| &[4, 5, 6, 8, 10, 12],
     points: &[2, 3],
     doubt: 1e-3,
     expected: &[],
@@ -119,24 +119,22 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Deflection of the middle of the free end at every record: of the four points next to it in the two outermost columns,
+/// Deflection of the middle of the free end at every record: of the points next to it in the two outermost columns,
 /// extrapolated to the end.
 pub(super) fn tip(run: &Recorded) -> Vec<f64> {
     let frames = &run.memory.frames;
     let first = &frames[0].points;
-    let farthest = first
-        .iter()
-        .fold(0.0, |most: f64, point| most.max(point.position[0]));
-    let spacing = 2.0 * (4.0 - farthest);
-    let column = |index: f64| {
-        let x = farthest - index * spacing;
-        let near = |i: &usize| {
-            let position = first[*i].position;
-            (position[0] - x).abs() < 0.1 * spacing && (position[1] - 0.5).abs() < 0.6 * spacing
-        };
-        (0..first.len()).filter(near).collect::<Vec<usize>>()
-    };
-    let columns = [column(0.0), column(1.0)];
+    let height = |i: usize| (first[i].position[1] - 0.5).abs();
+    let lowest = (0..first.len()).map(height).fold(f64::INFINITY, f64::min);
+    let mut near: Vec<usize> = (0..first.len())
+        .filter(|&i| height(i) < lowest + 1e-6)
+        .collect();
+    let from_end = |i: usize| 4.0 - first[i].position[0];
+    near.sort_by(|&i, &j| from_end(i).total_cmp(&from_end(j)));
+    let mut columns = near.chunk_by(|&i, &j| from_end(j) - from_end(i) < 1e-6);
+    let columns: [&[usize]; 2] = std::array::from_fn(|_| columns.next().unwrap_or_default());
+    let [outer, inner] = columns.map(|column| column.first().map_or(f64::NAN, |&i| from_end(i)));
+    let beyond = outer / (inner - outer);
     let deflection = |frame: &crate::observe::Frame, chosen: &[usize]| {
         let sum: f64 = chosen
             .iter()
@@ -146,6 +144,9 @@ pub(super) fn tip(run: &Recorded) -> Vec<f64> {
     };
     frames
         .iter()
-        .map(|frame| 1.5 * deflection(frame, &columns[0]) - 0.5 * deflection(frame, &columns[1]))
+        .map(|frame| {
+            let [outer, inner] = columns.map(|column| deflection(frame, column));
+            outer + beyond * (outer - inner)
+        })
         .collect()
 }
