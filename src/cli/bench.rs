@@ -59,7 +59,8 @@ pub struct BenchArguments {
     /// Timings of a row, whose median counts [default: 5, with --quick 3]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=10_000))]
     repeat: Option<u16>,
-    /// What the timings of a row take together, s [default: 1, with --quick 0.2]
+    /// What the timings of a row take together, s [default: 1, with --quick 0.2]; rows that differ in threads alone time the
+    /// same steps, as many as the first of them takes in this time
     #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<f64>,
     /// Fewer particles (100000, 10000 in 1D) and shorter timings
@@ -109,6 +110,15 @@ pub fn bench(arguments: &BenchArguments) -> Result<ExitCode, ExitCode> {
         .map_err(|error| fail(code::SYSTEM, &format!("cannot start threads: {error}")))?;
     let mut rows = Vec::with_capacity(cases.len());
     for (index, case) in cases.iter().enumerate() {
+        // what a step costs changes as points move: threads are compared over the same steps
+        let before = index.checked_sub(1).map(|before| &cases[before]);
+        let effort = Effort {
+            steps: before
+                .filter(|before| case.differs_in_threads_alone(before))
+                .and(rows.last())
+                .map(|row: &Row| row.steps),
+            ..effort
+        };
         let mut row = measure_apart(case, &effort)?;
         row.compare(&machine.bandwidth);
         out::message(&format!(
@@ -188,6 +198,7 @@ fn effort(arguments: &BenchArguments) -> Effort {
     Effort {
         repeats: arguments.repeat.map_or(repeats, usize::from),
         seconds: arguments.seconds.unwrap_or(seconds),
+        steps: None,
     }
 }
 

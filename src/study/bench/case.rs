@@ -42,6 +42,16 @@ const PER_AXIS: usize = 2;
 const MARGIN: usize = 8;
 
 impl Case {
+    /// Whether the same is asked for as by the other, but for the number of threads.
+    pub fn differs_in_threads_alone(&self, other: &Self) -> bool {
+        let threads = other.threads;
+        let same = Self {
+            threads,
+            ..self.clone()
+        };
+        same == *other
+    }
+
     /// Cells along each axis of a block of about `particles` points.
     fn block(&self) -> Vec<usize> {
         let cells = self.particles as f64 / PER_AXIS.pow(self.dimension as u32) as f64;

@@ -16,6 +16,8 @@ pub struct Effort {
     pub repeats: usize,
     /// What all timings of a row should take together, s; each has one step at least.
     pub seconds: f64,
+    /// Steps of a timing, if that is not for `seconds` to say.
+    pub steps: Option<u64>,
 }
 
 /// What was measured of one case.
@@ -124,7 +126,8 @@ impl SceneVisitor for Measuring<'_> {
         }
         let repeats = self.effort.repeats.max(1);
         let share = self.effort.seconds / repeats as f64;
-        let taken = ((share / each).round() as u64).max(1);
+        let allowed = (share / each).round() as u64;
+        let taken = self.effort.steps.unwrap_or(allowed).max(1);
         let mut times = Vec::with_capacity(repeats);
         for _ in 0..repeats {
             times.push(1e9 * steps(&mut scene, taken)? / (taken as f64 * count));
@@ -211,6 +214,7 @@ mod tests {
                 let effort = Effort {
                     repeats: 3,
                     seconds: 0.01,
+                    steps: None,
                 };
                 let row = measure(&case, &effort).unwrap_or_else(|error| panic!("{error}"));
                 assert!(row.fastest > 0.0 && row.fastest <= row.nanoseconds);
