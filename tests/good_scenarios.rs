@@ -379,11 +379,11 @@ fn the_scene_decides_on_frame_and_basis_that_nobody_names() {
 
 #[test]
 fn points_of_the_total_frame_are_placed_for_bending_where_they_fill_cells() {
-    let placed = |method: &str, left: f64| {
+    let placed_with = |method: &str, left: f64, ratio: f64| {
         let text = format!(
             "dimension = 2\ntime = {{ end = 1, courant = 0.3 }}\n\
              grid = {{ min = [0, 0], max = [1, 1], cell_size = 0.1 }}\n[method]\n{method}\n\
-             [material.soft]\ndensity = 1\nneo_hookean = {{ youngs_modulus = 1, poissons_ratio = 0.25 }}\n\
+             [material.soft]\ndensity = 1\nneo_hookean = {{ youngs_modulus = 1, poissons_ratio = {ratio} }}\n\
              [[body]]\nname = \"a\"\nmaterial = \"soft\"\nshape.box = {{ min = [{left}, 0.0], max = [0.6, 0.5] }}\n"
         );
         let loaded = parse("scene", &text, &[]).unwrap_or_else(|error| panic!("{error}"));
@@ -394,6 +394,7 @@ fn points_of_the_total_frame_are_placed_for_bending_where_they_fill_cells() {
             loaded.warnings.len(),
         )
     };
+    let placed = |method: &str, left: f64| placed_with(method, left, 0.25);
     let (bending, even) = ("bending", "even");
     // 1/(1 + 3/8 + 1/8) for hat functions, all of the cell's for splines
     assert_eq!(placed("", 0.4), (bending, Some(1.0 / 1.5), 0));
@@ -410,6 +411,13 @@ fn points_of_the_total_frame_are_placed_for_bending_where_they_fill_cells() {
     assert_eq!(placed(&b_bar, 0.4), (even, None, 0));
     assert_eq!(placed("frame = \"updated\"", 0.4), (even, None, 0));
     assert_eq!(placed("placement = \"even\"", 0.4), (even, None, 0));
+    // splines that would lock
+    let spline = |ratio: f64| {
+        let text = format!("{total}basis = \"quadratic\"");
+        placed_with(&text, 0.4, ratio)
+    };
+    assert_eq!(spline(0.45), (bending, Some(1.0), 0));
+    assert_eq!(spline(0.49), (even, None, 0));
     // half a cell at one end; who asks for it all the same is told
     assert_eq!(placed("", 0.45), (even, None, 0));
     let asked = format!("{total}placement = \"bending\"");

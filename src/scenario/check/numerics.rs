@@ -252,7 +252,7 @@ pub(super) fn warn_of_placement(
     let bodies = bodies.iter().filter_map(|named| named.found.as_ref());
     for counted in bodies.filter(|counted| counted.body.moment.is_none()) {
         warnings.push(format!(
-            "method.placement: \"bending\" does nothing for the body \"{}\": it is for boxes of whole cells in 2D and 3D with two points or more along each axis of a cell, and not for b_bar",
+            "method.placement: \"bending\" does nothing for the body \"{}\": it is for boxes of whole cells in 2D and 3D with two points or more along each axis of a cell, and neither for b_bar nor for splines from a Poisson's ratio of 0.47 on",
             counted.body.name
         ));
     }

@@ -119,7 +119,10 @@ fn short(norm: &str) -> String {
         words.push_str(word);
     }
     if norm.contains("relative") {
-        words.push_str(", relative L2");
+        words.push_str(", relative");
+    }
+    if norm.contains("L2") {
+        words.push_str(" L2");
     }
     words
 }

@@ -8,7 +8,8 @@
 //! Ring, radius R, ν = 0: only the hoop carries stress, E u/R: u = v₀/ω sin ωt with ω = √(E/ρ)/R.
 
 use super::history::{frequency_near, from_start, largest, points, scaled};
-use super::{Case, CaseError, Report, rms, set};
+use super::problem::displacement_error;
+use super::{Case, CaseError, Layout, Problem, Report, rms, set};
 use crate::report::{LineChart, Series, Style};
 use std::f64::consts::{PI, TAU};
 
@@ -18,6 +19,38 @@ pub const CASE: Case = Case {
     claim: "a thick tube under pressure takes Lamé's state, and a thin ring breathes with its own period",
     reference: "closed forms: Lamé's thick cylinder; the ring's one-mass oscillator",
     run,
+};
+
+/// The tube.
+pub const PROBLEM: Problem = Problem {
+    name: "axisymmetric",
+    about: "a long thick tube, half a section of it in an axisymmetric scene, widens under a pressure in its bore",
+    norm: "displacement at rest, relative L2 norm",
+    reference: "closed form: Lamé's thick cylinder in plane strain",
+    cells_are: "over the wall of the tube",
+    dimensions: &[2],
+    layout: |_, cells| {
+        let h = (OUTER - INNER) / f64::from(cells);
+        let (low, high) = (INNER - 2.0 * h, OUTER + 2.0 * h);
+        Layout {
+            text: TUBE.into(),
+            overrides: vec![
+                format!("grid={{ min=[{low:?}, 0.0], max=[{high:?}, {:?}], cell_size={h:?} }}", 2.0 * h),
+                format!("body[0].shape.box.max=[{OUTER:?}, {:?}]", 2.0 * h),
+                "output.every=\"1 ms\"".into(),
+            ],
+        }
+    },
+    error: |run| {
+        displacement_error(run, |&[radius, ..], time| {
+            let moved = if time == 0.0 { 0.0 } else { Layer::exact(radius).displacement };
+            [moved, 0.0, 0.0]
+        })
+    },
+    cells: |_| &[5, 10, 20, 40],
+    points: &[1, 2],
+    doubt: 0.0,
+    expected: &[],
 };
 
 const TUBE: &str = include_str!("../../../scenarios/thick_cylinder.toml");

@@ -9,7 +9,7 @@
 
 use super::compare::{chart, curve, larger};
 use super::history::frequency_near;
-use super::{Case, CaseError, Report};
+use super::{Case, CaseError, Layout, Problem, Recorded, Report};
 use crate::observe::Frame;
 use crate::report::Style;
 use std::f64::consts::{PI, TAU};
@@ -20,6 +20,25 @@ pub const CASE: Case = Case {
     claim: "a thick ring with free curved rims breathes with the frequency of elasticity in plane strain",
     reference: "radial equation of motion, integrated (derived in the case file)",
     run,
+};
+
+/// Four periods.
+pub const PROBLEM: Problem = Problem {
+    name: "breathing_ring",
+    about: "a thick ring with free rims, which follow no grid line, breathes for four periods in plane strain",
+    norm: "frequency of the mean outward displacement, relative",
+    reference: CASE.reference,
+    cells_are: "over the wall of the ring",
+    dimensions: &[2],
+    layout: |_, cells| Layout {
+        text: scenario((RIMS[1] - RIMS[0]) / f64::from(cells), omega()),
+        overrides: Vec::new(),
+    },
+    error: |run| (found(run, omega()).0 / omega() - 1.0).abs(),
+    cells: |_| &[4, 6, 8, 12],
+    points: &[2, 3],
+    doubt: 0.0,
+    expected: &[],
 };
 
 /// Rims, m.
@@ -43,11 +62,7 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     let mut panels = Vec::new();
     for cell in sizes {
         let run = report.run_with_frames(&scenario(cell, omega), &[])?;
-        let frames = &run.memory.frames;
-        let time: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-        let start = &frames[0];
-        let breath: Vec<f64> = frames.iter().map(|frame| outward(frame, start)).collect();
-        let found = TAU * frequency_near(&time, &breath, omega / TAU);
+        let (found, time, breath) = found(&run, omega);
         errors.push(found / omega - 1.0);
         if cell == sizes[2] {
             let exact: Vec<f64> = time
@@ -110,6 +125,16 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
     panels.push(panel);
     report.chart("ring", panels);
     Ok(())
+}
+
+/// The angular frequency near one, rad/s, of what moves outwards, and that itself: times and displacements.
+fn found(run: &Recorded, omega: f64) -> (f64, Vec<f64>, Vec<f64>) {
+    let frames = &run.memory.frames;
+    let time: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
+    let breath = frames.iter().map(|frame| outward(frame, &frames[0]));
+    let breath: Vec<f64> = breath.collect();
+    let frequency = frequency_near(&time, &breath, omega / TAU);
+    (TAU * frequency, time, breath)
 }
 
 /// μ and λ.

@@ -4,7 +4,7 @@
 //! 0.21221 at 0.45, 0.19666 at 0.499. `mpm stability locking` shows which bases stay far below; here is what the others reach.
 
 use super::compare::{chart, curve};
-use super::{Case, CaseError, Report, cantilever};
+use super::{Case, CaseError, Layout, Problem, Report, cantilever};
 use crate::report::Style;
 
 /// The case.
@@ -15,8 +15,38 @@ pub const CASE: Case = Case {
     run,
 };
 
+/// The beam at a Poisson's ratio of 0.499.
+pub const PROBLEM: Problem = Problem {
+    name: "cantilever_shear",
+    about: "a nearly incompressible beam (Poisson's ratio 0.499), clamped at one end, comes to rest under a small load on the other",
+    norm: "deflection of the free end at rest, relative",
+    reference: "finite elements of nine nodes with a linear pressure each, extrapolated from 64 x 16 and 128 x 32",
+    cells_are: "over the height of the beam",
+    dimensions: &[2],
+    layout: |_, cells| Layout {
+        text: scenario("quadratic", 1.0 / f64::from(cells), REFERENCE[2].0),
+        // the margin above and below is a whole number of cells
+        overrides: vec![format!(
+            "grid={{ min=[0.0, -1.0], max=[5.0, 2.0], cell_size={:?} }}",
+            1.0 / f64::from(cells)
+        )],
+    },
+    error: |run| {
+        let deflection = -super::history::last(&cantilever::tip(run));
+        (deflection / (LOAD * NEARLY_INCOMPRESSIBLE) - 1.0).abs()
+    },
+    cells: |_| &[2, 3, 4, 6],
+    points: &[1, 2],
+    doubt: 1e-3,
+    expected: &[],
+};
+
 /// Poisson's ratio, and the deflection, m.
 const REFERENCE: [(f64, f64); 3] = [(0.3, 0.24345), (0.45, 0.21221), (0.499, 0.19666)];
+/// The deflection at 0.499, m, to a thousandth: finite elements of nine nodes with three pressures each, of which 16 × 4, 32 × 8, 64 × 16 and
+/// 128 × 32 give 0.19796, 0.19854, 0.19875 and 0.19882. The figure above is 1.1 % lower, which decides nothing at its
+/// tolerance; at 0.3 and 0.45 the two agree to 0.1 %.
+const NEARLY_INCOMPRESSIBLE: f64 = 0.19886;
 /// Small enough for small strain.
 const LOAD: f64 = 1e-3;
 
@@ -75,9 +105,14 @@ fn run(report: &mut Report) -> Result<(), CaseError> {
 
 /// The deflection at rest, m.
 fn rest(report: &mut Report, basis: &str, cell: f64, ratio: f64) -> Result<f64, CaseError> {
+    let run = report.run_with_frames(&scenario(basis, cell, ratio), &[])?;
+    Ok(-super::history::last(&cantilever::tip(&run)))
+}
+
+fn scenario(basis: &str, cell: f64, ratio: f64) -> String {
     // The load grows over 3 s, a period of the beam, whose angular frequency is 2/s; twice that is the damping that stops it soonest, and
     // e^(-2 * 5) is left after the 5 s that follow.
-    let text = format!(
+    format!(
         r#"dimension = 2
 time = {{ end = 8.0, courant = 0.6 }}
 grid = {{ min = [0.0, -0.5], max = [4.5, 1.5], cell_size = {cell:?} }}
@@ -102,7 +137,5 @@ force = [0.0, {:?}]
 factor = "min(t / (3 s), 1)"
 "#,
         -LOAD
-    );
-    let run = report.run_with_frames(&text, &[])?;
-    Ok(-super::history::last(&cantilever::tip(&run)))
+    )
 }

@@ -1,8 +1,8 @@
 //! Cases that can be set up at any resolution and measured against their answer: what speed is charted over.
 
 use super::{
-    Recorded, bar1d, beam, cantilever, column, large_bar, manufactured, pressurised_ring,
-    vibration, vortex, wave,
+    Recorded, axisymmetric, bar1d, beam, breathing_ring, cantilever, cantilever_shear, column,
+    large_bar, manufactured, pressurised_ring, shear_box, vibration, vortex, wave,
 };
 
 /// A case at any resolution, and how wrong a run of it is.
@@ -65,7 +65,11 @@ pub const PROBLEMS: &[&Problem] = &[
     &vortex::PROBLEM,
     &beam::PROBLEM,
     &cantilever::PROBLEM,
+    &cantilever_shear::PROBLEM,
+    &shear_box::PROBLEM,
     &pressurised_ring::PROBLEM,
+    &axisymmetric::PROBLEM,
+    &breathing_ring::PROBLEM,
 ];
 
 /// Second order for smooth motion, in which no point leaves its cell.

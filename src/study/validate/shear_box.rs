@@ -9,7 +9,7 @@
 //! by about 1.3 · h/(4L), and so on, to first order in h. Both are run, to see the one error vanish and the other halve.
 
 use super::history::{frequency_near, from_start, largest, last, points, scaled};
-use super::{Case, CaseError, Recorded, Report, rms, set};
+use super::{Case, CaseError, Layout, Problem, Recorded, Report, rms, set};
 use crate::report::{LineChart, Series, Style};
 
 /// The case.
@@ -18,6 +18,34 @@ pub const CASE: Case = Case {
     claim: "a copper box swings under a sudden tangential force as finite elements say, and settles where they do",
     reference: "linear finite elements: history and static state in 3D, static state and period in plane stress and strain",
     run,
+};
+
+/// The box in plane stress, settled.
+pub const PROBLEM: Problem = Problem {
+    name: "shear_box",
+    about: "a copper box in plane stress, its base fixed, settles under a tangential force on its top",
+    norm: "displacement of the top at rest, relative",
+    reference: "linear finite elements in plane stress",
+    cells_are: "over the height of the box",
+    dimensions: &[2],
+    layout: |_, cells| {
+        let h = 0.025 / f64::from(cells);
+        let (low, high) = (-2.0 * h, 0.025 + 2.0 * h);
+        let mut overrides = settling();
+        overrides.extend([
+            format!("grid={{ min=[{low:?}, 0.0], max=[{high:?}, {high:?}], cell_size={h:?} }}"),
+            "output.every=170e-6".into(),
+        ]);
+        Layout {
+            text: PLANE_STRESS.into(),
+            overrides,
+        }
+    },
+    error: |run| (last(&top(run, 14430.0)) / PLANES[0].top - 1.0).abs(),
+    cells: |_| &[5, 10, 20, 40],
+    points: &[1, 2],
+    doubt: 1e-3,
+    expected: &[],
 };
 
 const BOX: &str = include_str!("../../../scenarios/shear_box.toml");
