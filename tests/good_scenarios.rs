@@ -423,4 +423,23 @@ fn points_of_the_total_frame_are_placed_for_bending_where_they_fill_cells() {
     let asked = format!("{total}placement = \"bending\"");
     assert_eq!(placed(&asked, 0.45), (bending, None, 1));
     assert_eq!(placed(&asked, 0.4), (bending, Some(1.0 / 1.5), 0));
+    // nobody asked for it here
+    let ball = "[[body]]\nname = \"b\"\nmaterial = \"soft\"\nshape.ball = { center = [0.8, 0.8], radius = 0.1 }\n";
+    let text = format!(
+        "dimension = 2\ntime = {{ end = 1, courant = 0.3 }}\n\
+         grid = {{ min = [0, 0], max = [1, 1], cell_size = 0.1 }}\n[method]\n{total}\
+         [material.soft]\ndensity = 1\nneo_hookean = {{ youngs_modulus = 1, poissons_ratio = 0.25 }}\n\
+         [[body]]\nname = \"a\"\nmaterial = \"soft\"\nshape.box = {{ min = [0.4, 0.0], max = [0.6, 0.5] }}\n{ball}"
+    );
+    let loaded = parse("scene", &text, &[]).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(loaded.scenario.method.placement.name(), bending);
+    let moments: Vec<_> = loaded
+        .scenario
+        .bodies
+        .iter()
+        .map(|body| body.moment)
+        .collect();
+    assert_eq!(moments, [Some(1.0 / 1.5), None]);
+    let told = loaded.warnings.join("\n");
+    assert!(!told.contains("placement"), "{told}");
 }

@@ -277,7 +277,6 @@ impl<'a> Filling<'a> {
 
     /// Whether nodes of the grid lie on corners of lattice cells: then what a point stands for lies in one cell of the grid.
     pub fn divides_cells(&self, grid: &GridSpec) -> bool {
-        let whole = |x: f64| (x - x.round()).abs() < 1e-9 * x.abs().max(1.0);
         (0..self.dimension).all(|axis| {
             let spacing = self.spacing[axis];
             whole(grid.cell_size / spacing) && whole((self.origin[axis] - grid.min[axis]) / spacing)
@@ -286,7 +285,6 @@ impl<'a> Filling<'a> {
 
     /// Whether this is a box of whole cells of the grid with two points along each axis of a cell or more.
     pub fn fills_cells(&self, grid: &GridSpec) -> bool {
-        let whole = |x: f64| (x - x.round()).abs() < 1e-9 * x.abs().max(1.0);
         matches!(self.shape, Shape::Cuboid(_))
             && self.divides_cells(grid)
             && (0..self.dimension).all(|axis| {
@@ -327,12 +325,7 @@ impl<'a> Filling<'a> {
     /// How far the outermost points lie from the faces of a box, m.
     fn to_face(&self, axis: usize) -> f64 {
         let half = 0.5 * self.per_cell[axis] as f64;
-        let inside = self.drawn[axis] * (half - 0.5);
-        if self.drawn[axis] == 1.0 {
-            0.5 * self.spacing[axis]
-        } else {
-            (half - inside) * self.spacing[axis]
-        }
+        (half - self.drawn[axis] * (half - 0.5)) * self.spacing[axis]
     }
 
     fn inside_count(&self, first: [u64; 3], count: [u64; 3]) -> u64 {
@@ -373,6 +366,11 @@ impl<'a> Filling<'a> {
             }
         }
     }
+}
+
+/// Whether a number is whole but for round-off.
+fn whole(x: f64) -> bool {
+    (x - x.round()).abs() < 1e-9 * x.abs().max(1.0)
 }
 
 #[cfg(test)]

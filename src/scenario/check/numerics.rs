@@ -246,7 +246,8 @@ pub(super) fn warn_of_placement(
     bodies: &[Named<CountedBody>],
     warnings: &mut Vec<String>,
 ) {
-    if method.placement == Placement::Even {
+    let left_to_the_scene = method.chosen.iter().any(|c| c.key == "placement");
+    if method.placement == Placement::Even || left_to_the_scene {
         return;
     }
     let bodies = bodies.iter().filter_map(|named| named.found.as_ref());
