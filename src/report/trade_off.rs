@@ -58,8 +58,10 @@ pub struct TradeOff {
     pub floor: Option<(f64, String)>,
 }
 
-/// Share of the frame's width that is kept free at the left for labels of the frontier.
+/// Least share of the frame's width that is kept free at the left for labels of the frontier.
 const LABEL_ROOM: f64 = 0.26;
+/// Between the frame and the place of a label of the frontier, beside the label.
+const LABEL_GAP: f64 = 17.0;
 const SMALL: f64 = 12.5;
 
 impl TradeOff {
@@ -77,22 +79,32 @@ impl TradeOff {
         picture
     }
 
-    fn axes(&self) -> (Axis, Axis) {
-        let points = || self.groups.iter().flat_map(|group| &group.points);
+    /// The axis of costs, so many units of length long, with room at its left for the labels of the frontier.
+    fn x_axis(&self, length: f64, unit: f64) -> Axis {
+        let points = self.groups.iter().flat_map(|group| &group.points);
         let failed = self.groups.iter().flat_map(|group| &group.failed);
-        let costs = points().map(|p| p.0).chain(failed.copied());
+        let costs = points.map(|p| p.0).chain(failed.copied());
         let [low, high] = Axis::new(true, None, costs, 0.04).range();
-        let room = (high / low).powf(LABEL_ROOM / (1.0 - LABEL_ROOM));
-        let x = Axis::new(true, Some([low / room, high]), std::iter::empty(), 0.0);
+        let span = (high / low).ln();
+        // what has to be added at the left for a place to lie as far from it as its label is long
+        let wanted = |best: &Best| {
+            let label = font::width(&best.label, SMALL * unit) + LABEL_GAP * unit;
+            let share = (label / length).min(0.6);
+            (share * span - (best.cost / low).ln()) / (1.0 - share)
+        };
+        let least = LABEL_ROOM / (1.0 - LABEL_ROOM) * span;
+        let room = self.frontier.iter().map(wanted).fold(least, f64::max).exp();
+        Axis::new(true, Some([low / room, high]), std::iter::empty(), 0.0)
+    }
+
+    fn y_axis(&self) -> Axis {
+        let points = self.groups.iter().flat_map(|group| &group.points);
         let floor = self.floor.iter().map(|(error, _)| *error);
-        let errors = points().map(|p| p.1).chain(floor);
+        let errors = points.map(|p| p.1).chain(floor);
         let [low, high] = Axis::new(true, None, errors, 0.06).range();
         // room below for labels that have to give way
         let low = low / (high / low).powf(0.14);
-        (
-            x,
-            Axis::new(true, Some([low, high]), std::iter::empty(), 0.0),
-        )
+        Axis::new(true, Some([low, high]), std::iter::empty(), 0.0)
     }
 }
 
@@ -142,7 +154,7 @@ impl<'a> Layout<'a> {
             width - 22.0 * u,
             (height - 10.0 * u).max(0.0),
         );
-        let (x, y) = chart.axes();
+        let y = chart.y_axis();
         let y_ticks = y.ticks((rect.height() / (60.0 * u)) as usize);
         let widths = y_ticks.marks.iter();
         let widest = widths
@@ -162,7 +174,7 @@ impl<'a> Layout<'a> {
             frame,
             failed_y,
             unit: u,
-            x,
+            x: chart.x_axis(frame.width(), u),
             y,
             y_ticks,
         }
@@ -445,6 +457,16 @@ mod tests {
             "{kept:?}"
         );
         assert!(kept.len() >= 7 && kept.iter().all(|y| *y <= 100.0));
+    }
+
+    #[test]
+    fn a_long_label_of_the_cheapest_run_ends_left_of_it() {
+        let (mut chart, size) = (example(), Size::default());
+        chart.frontier[0].label = "updated quadratic mls_apic, 25 × 2, C 0.5".into();
+        let layout = Layout::new(&chart, size);
+        let place = layout.place(1.0, 0.1).expect("inside the frame");
+        let label = font::width(&chart.frontier[0].label, SMALL * layout.unit);
+        assert!(place.0 - label > layout.frame.left + 14.0 * layout.unit);
     }
 
     #[test]

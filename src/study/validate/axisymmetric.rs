@@ -53,6 +53,27 @@ pub const PROBLEM: Problem = Problem {
     expected: &[],
 };
 
+/// The stresses of the tube.
+pub const STRESS: Problem = Problem {
+    name: "axisymmetric_stress",
+    about: "the stresses of that tube",
+    norm: "radial and hoop stress at rest, relative L2 norm over points",
+    error: |run| {
+        let frames = &run.memory.frames;
+        let (start, end) = (&frames[0].points, &frames[frames.len() - 1].points);
+        let (mut error, mut size) = (0.0, 0.0);
+        for (start, point) in start.iter().zip(end) {
+            let exact = Layer::exact(start.position[0]);
+            for (axis, stress) in [(0, exact.radial), (2, exact.hoop)] {
+                error += start.initial_volume * (point.stress[axis][axis] - stress).powi(2);
+                size += start.initial_volume * stress.powi(2);
+            }
+        }
+        (error / size).sqrt()
+    },
+    ..PROBLEM
+};
+
 const TUBE: &str = include_str!("../../../scenarios/thick_cylinder.toml");
 const RING: &str = include_str!("../../../scenarios/ring.toml");
 

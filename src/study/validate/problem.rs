@@ -2,7 +2,7 @@
 
 use super::{
     Recorded, axisymmetric, bar1d, beam, breathing_ring, cantilever, cantilever_shear, column,
-    large_bar, manufactured, pressurised_ring, shear_box, vibration, vortex, wave,
+    impact, large_bar, manufactured, pressurised_ring, shear_box, vibration, vortex, wave,
 };
 
 /// A case at any resolution, and how wrong a run of it is.
@@ -60,6 +60,8 @@ pub const PROBLEMS: &[&Problem] = &[
     &bar1d::PROBLEM,
     &vibration::PROBLEM,
     &wave::PROBLEM,
+    &impact::PROBLEM,
+    &impact::FAST,
     &column::PROBLEM,
     &large_bar::PROBLEM,
     &vortex::PROBLEM,
@@ -69,6 +71,7 @@ pub const PROBLEMS: &[&Problem] = &[
     &shear_box::PROBLEM,
     &pressurised_ring::PROBLEM,
     &axisymmetric::PROBLEM,
+    &axisymmetric::STRESS,
     &breathing_ring::PROBLEM,
 ];
 
