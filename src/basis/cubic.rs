@@ -1,6 +1,6 @@
 //! Cubic B-splines: slopes and curvatures pass smoothly across cell edges.
 
-use super::{Axis, Basis, Functions, spline};
+use super::{Basis, Functions, spline};
 use crate::input::{Parameters, Reader};
 use crate::real::Real;
 
@@ -45,7 +45,8 @@ impl Basis<4> for CubicBSpline {
         (2, cells - 3)
     }
 
-    fn at_end(&self, x: f64, first: i32, cells: i32) -> Axis<4> {
+    #[inline(always)]
+    fn at_end<R: Real>(&self, x: R, first: R, cells: i32) -> Functions<R, 4> {
         spline::clamped(x, first, cells)
     }
 
@@ -54,6 +55,6 @@ impl Basis<4> for CubicBSpline {
     }
 
     fn position(&self, index: i32, cells: i32) -> f64 {
-        spline::greville(index, 3, cells)
+        spline::position::<4>(index, cells)
     }
 }

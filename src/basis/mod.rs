@@ -50,27 +50,25 @@ pub trait Basis<const N: usize>: Copy + Send + Sync + 'static {
         (0, self.count(cells) - N as i32)
     }
 
-    /// The functions at `x` of a stencil that is not [alike](Self::alike) the others: near the ends of the grid.
-    fn at_end(&self, x: f64, first: i32, cells: i32) -> Axis<N> {
+    /// The functions at `x` of a stencil that is not [alike](Self::alike) the others: near the ends of the grid. As
+    /// [`Self::functions`], for several points together; each has its own `first`.
+    #[inline(always)]
+    fn at_end<R: Real>(&self, x: R, first: R, cells: i32) -> Functions<R, N> {
         let _ = cells;
-        let same = self.functions(x + self.shift() - f64::from(first));
-        Axis {
-            first,
-            weight: same.weight,
-            slope: same.slope,
-            arm: same.arm,
-        }
+        self.functions(x + self.shift() - first)
     }
 
     /// The functions at `x` cells from the lower end, `0 ≤ x ≤ cells`.
     fn axis(&self, x: f64, cells: i32) -> Axis<N> {
-        let x_shifted = x + self.shift();
-        let first = (x_shifted as i32).min(self.count(cells) - N as i32);
+        let shifted = x + self.shift();
+        let first = (shifted as i32).min(self.count(cells) - N as i32);
         let (low, high) = self.alike(cells);
-        if first < low || first > high {
-            return self.at_end(x, first, cells);
-        }
-        let Functions { weight, slope, arm } = self.functions(x_shifted - f64::from(first));
+        let start = f64::from(first);
+        let Functions { weight, slope, arm } = if first < low || first > high {
+            self.at_end(x, start, cells)
+        } else {
+            self.functions(shifted - start)
+        };
         Axis {
             first,
             weight,

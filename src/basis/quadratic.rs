@@ -1,6 +1,6 @@
 //! Quadratic B-splines: smooth across cell edges, so that a point that changes cells meets no jump in slope.
 
-use super::{Axis, Basis, Functions, spline};
+use super::{Basis, Functions, spline};
 use crate::input::{Parameters, Reader};
 use crate::real::Real;
 
@@ -34,7 +34,8 @@ impl Basis<3> for QuadraticBSpline {
         (1, cells - 2)
     }
 
-    fn at_end(&self, x: f64, first: i32, cells: i32) -> Axis<3> {
+    #[inline(always)]
+    fn at_end<R: Real>(&self, x: R, first: R, cells: i32) -> Functions<R, 3> {
         spline::clamped(x, first, cells)
     }
 
@@ -43,6 +44,6 @@ impl Basis<3> for QuadraticBSpline {
     }
 
     fn position(&self, index: i32, cells: i32) -> f64 {
-        spline::greville(index, 2, cells)
+        spline::position::<3>(index, cells)
     }
 }

@@ -1,6 +1,7 @@
 //! What every registered basis has to satisfy.
 
 use super::*;
+use crate::real::{Portable, Real};
 
 const CELLS: [i32; 6] = [1, 2, 3, 4, 7, 25];
 const SPACINGS: [f64; 6] = [1.0, 0.5, 1.0 / 3.0, 0.25, 0.2, 0.7];
@@ -177,6 +178,43 @@ fn every_basis_but_the_linear_one_has_continuous_slopes() {
             choice.visit(Check(&Continuous { slopes: true }, choice.name()));
         }
     }
+}
+
+struct Together;
+impl Property for Together {
+    fn check<const N: usize, B: Basis<N>>(&self, basis: B, cells: i32, label: &str) {
+        let (low, high) = basis.alike(cells);
+        let places = places(cells);
+        let ends: Vec<f64> = places
+            .into_iter()
+            .filter(|x| !(low..=high).contains(&basis.axis(*x, cells).first))
+            .collect();
+        for four in ends.chunks_exact(4) {
+            let axes = [0, 1, 2, 3].map(|q| basis.axis(four[q], cells));
+            let [mut x, mut first] = [Portable::splat(0.0); 2];
+            for q in 0..4 {
+                x = x.with_lane(q, four[q]);
+                first = first.with_lane(q, f64::from(axes[q].first));
+            }
+            let together = basis.at_end(x, first, cells);
+            for (q, alone) in axes.iter().enumerate() {
+                for k in 0..N {
+                    let [w, s, a] = [together.weight[k], together.slope[k], together.arm[k]];
+                    assert_eq!(
+                        [w.lane(q), s.lane(q), a.lane(q)],
+                        [alone.weight[k], alone.slope[k], alone.arm[k]],
+                        "{label}: function {k} at {}",
+                        four[q]
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn points_near_the_ends_have_the_same_functions_together_as_alone() {
+    every_basis(&Together);
 }
 
 struct Mirrored;

@@ -54,8 +54,8 @@ pub struct TradeOff {
     pub other: Option<(String, Vec<(f64, f64)>)>,
     /// Runs in rings, and what they have in common.
     pub marked: Option<(String, Vec<(f64, f64)>)>,
-    /// An error below which differences mean nothing, and why: a dashed line.
-    pub floor: Option<(f64, String)>,
+    /// An error below which differences mean nothing: a dashed line.
+    pub floor: Option<f64>,
 }
 
 /// Least share of the frame's width that is kept free at the left for labels of the frontier.
@@ -99,8 +99,7 @@ impl TradeOff {
 
     fn y_axis(&self) -> Axis {
         let points = self.groups.iter().flat_map(|group| &group.points);
-        let floor = self.floor.iter().map(|(error, _)| *error);
-        let errors = points.map(|p| p.1).chain(floor);
+        let errors = points.map(|p| p.1).chain(self.floor);
         let [low, high] = Axis::new(true, None, errors, 0.06).range();
         // room below for labels that have to give way
         let low = low / (high / low).powf(0.14);
@@ -271,10 +270,7 @@ impl<'a> Layout<'a> {
     }
 
     fn draw_floor(&self, picture: &mut Picture) {
-        let Some((error, why)) = &self.chart.floor else {
-            return;
-        };
-        let Some(share) = self.y.share(*error) else {
+        let Some(share) = self.chart.floor.and_then(|error| self.y.share(error)) else {
             return;
         };
         let (u, frame) = (self.unit, &self.frame);
@@ -285,8 +281,6 @@ impl<'a> Layout<'a> {
             width: 1.2 * u,
             dash: vec![6.0 * u, 5.0 * u],
         });
-        let at = (frame.left + 4.0 * u, y - 5.0 * u);
-        picture.text(at, why, SMALL * u, FRAME, Anchor::Start);
     }
 
     /// Runs off the frontier are small and pale, so that the frontier is what the eye meets first.

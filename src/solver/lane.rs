@@ -2,6 +2,12 @@
 
 use crate::real::{MOST_LANES, Portable, Real};
 
+/// Something to be done with numbers of several points.
+pub trait Task {
+    /// Does it. Mark it `#[inline(always)]`.
+    fn run(self);
+}
+
 /// The same number of several points, which are computed together.
 ///
 /// In memory points stand one after the other, `D` numbers each; in lanes the same number of all points stands together.
@@ -16,6 +22,8 @@ pub trait Points: Real {
     fn on_its_own(self) -> Self {
         self
     }
+    /// Does something in a function of its own, which is compiled for these numbers: what is rare is not to make what is common slower.
+    fn apart(task: impl Task);
     /// Whether all lie in `low ..= high`; false if one is not a number.
     fn all_within(self, low: f64, high: f64) -> bool;
     /// Writes whole numbers, not negative, one for each lane.
@@ -105,6 +113,11 @@ impl Points for Portable {
     #[inline(always)]
     fn on_its_own(self) -> Self {
         std::hint::black_box(self)
+    }
+    #[cold]
+    #[inline(never)]
+    fn apart(task: impl Task) {
+        task.run();
     }
     #[inline(always)]
     fn all_within(self, low: f64, high: f64) -> bool {

@@ -4,7 +4,7 @@
 //! called after both were found at run time; its methods are inlined there, which makes the instructions sound and fast. The
 //! addresses are the callers' to vouch for.
 
-use super::{Lane, Points};
+use super::{Lane, Points, Task};
 use crate::real::MOST_LANES;
 use crate::real::{Avx, Real};
 use std::arch::x86_64::*;
@@ -15,6 +15,17 @@ impl Points for Avx {
     #[inline(always)]
     fn four(self, _: usize) -> Self {
         self
+    }
+    #[inline(always)]
+    fn apart(task: impl Task) {
+        #[cold]
+        #[inline(never)]
+        #[target_feature(enable = "avx2,fma")]
+        fn compiled(task: impl Task) {
+            task.run();
+        }
+        // SAFETY: module header
+        unsafe { compiled(task) }
     }
     #[inline(always)]
     fn all_within(self, low: f64, high: f64) -> bool {

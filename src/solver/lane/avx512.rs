@@ -4,7 +4,7 @@
 //! DQ) and called after these were found at run time; its methods are inlined there, which makes the instructions sound and
 //! fast. The addresses are the callers' to vouch for.
 
-use super::{Lane, Points};
+use super::{Lane, Points, Task};
 use crate::real::MOST_LANES;
 use crate::real::{Avx, Avx512, Real};
 use std::arch::x86_64::*;
@@ -22,6 +22,17 @@ impl Points for Avx512 {
                 _mm512_extractf64x4_pd::<1>(self.0)
             }
         })
+    }
+    #[inline(always)]
+    fn apart(task: impl Task) {
+        #[cold]
+        #[inline(never)]
+        #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
+        fn compiled(task: impl Task) {
+            task.run();
+        }
+        // SAFETY: module header
+        unsafe { compiled(task) }
     }
     #[inline(always)]
     fn all_within(self, low: f64, high: f64) -> bool {

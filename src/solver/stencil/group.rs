@@ -3,7 +3,7 @@
 use super::{Pass, Tile};
 use crate::basis::{Basis, Functions};
 use crate::real::MOST_LANES;
-use crate::solver::lane::Points;
+use crate::solver::lane::{Points, Task};
 use crate::transfer::Transfer;
 use std::ops::Range;
 
@@ -75,14 +75,6 @@ impl<P: Points> Kept<P> {
         debug_assert!(q < P::LANES);
         // SAFETY: lanes are so many numbers and nothing else
         unsafe { *(&raw const self.0).cast::<f64>().add(q) }
-    }
-
-    /// Sets the number of point `q`.
-    #[inline(always)]
-    pub(super) fn set_of(&mut self, q: usize, number: f64) {
-        debug_assert!(q < P::LANES);
-        // SAFETY: as above
-        unsafe { *(&raw mut self.0).cast::<f64>().add(q) = number }
     }
 }
 
@@ -182,12 +174,18 @@ impl<P: Points, const D: usize, const N: usize> Group<P, D, N> {
             let x = (position[a] - P::splat(pass.min[a])) * inverse;
             let (shifted, first) = start(basis, x, cells);
             let (low, high) = basis.alike(cells);
+            let sizes = (pass.cell_size, pass.inverse_size);
             if tile.alike(a, low, high) || first.all_within(f64::from(low), f64::from(high)) {
                 let functions = basis.functions(shifted - first);
-                let sizes = (pass.cell_size, pass.inverse_size);
-                self.set_axis::<B>(a, &functions, sizes, needs);
+                self.set_axis::<B, true>(a, &functions, sizes, needs);
             } else {
-                self.set_one_by_one(a, basis, &Kept(x), cells, pass.cell_size, needs);
+                P::apart(NearEnd {
+                    group: self,
+                    axis: (a, basis, cells),
+                    place: [x, shifted - first, first],
+                    sizes,
+                    needs,
+                });
             }
             let local = tile.local(a, first);
             if a + 1 == D {
@@ -205,8 +203,9 @@ impl<P: Points, const D: usize, const N: usize> Group<P, D, N> {
         node.whole(&mut self.node);
     }
 
+    /// The functions of an axis; `ALIKE` where every point's are those of the middle of the grid.
     #[inline(always)]
-    fn set_axis<B: Basis<N>>(
+    fn set_axis<B: Basis<N>, const ALIKE: bool>(
         &mut self,
         a: usize,
         functions: &Functions<P, N>,
@@ -234,11 +233,11 @@ impl<P: Points, const D: usize, const N: usize> Group<P, D, N> {
                 moment[i] = functions.weight[i] * functions.arm[i];
             }
             let (inertia, inverse) = match B::INERTIA {
-                Some(inertia) => (
+                Some(inertia) if ALIKE => (
                     P::splat(inertia * cell_size * cell_size),
                     P::splat(1.0 / (inertia * cell_size)),
                 ),
-                None => {
+                _ => {
                     let mut inertia = P::splat(0.0);
                     for i in 0..N {
                         inertia = moment[i].mul_add(functions.arm[i], inertia);
@@ -249,48 +248,47 @@ impl<P: Points, const D: usize, const N: usize> Group<P, D, N> {
             };
             self.inertia[a].set(inertia);
             if !B::AFFINE_IS_SLOPE {
+                // on the very end of a grid of splines one node has all the weight and no arm: the slopes are the limit
+                let nothing = inertia.at_most(P::splat(f64::MIN_POSITIVE));
                 for i in 0..N {
-                    self.affine[a][i].set(moment[i] * inverse);
+                    let affine = moment[i] * inverse;
+                    self.affine[a][i].set(if ALIKE {
+                        affine
+                    } else {
+                        P::select(nothing, functions.slope[i] * inverse_size, affine)
+                    });
                 }
             }
         }
     }
+}
 
-    /// Where functions differ from cell to cell.
-    #[inline(never)]
-    fn set_one_by_one<B: Basis<N>>(
-        &mut self,
-        a: usize,
-        basis: &B,
-        x: &Kept<P>,
-        cells: i32,
-        cell_size: f64,
-        needs: Needs,
-    ) {
-        for q in 0..P::LANES {
-            let axis = basis.axis(x.of(q), cells);
-            let mut inertia = 0.0;
-            for i in 0..N {
-                inertia += axis.weight[i] * axis.arm[i] * axis.arm[i];
-            }
-            // on the very end of a grid of splines one node has all the weight and no arm: the slopes are the limit
-            let plain = B::AFFINE_IS_SLOPE || inertia <= f64::MIN_POSITIVE;
-            for i in 0..N {
-                let slope = axis.slope[i] / cell_size;
-                self.weight[a][i].set_of(q, axis.weight[i]);
-                if needs.slope {
-                    self.slope[a][i].set_of(q, slope);
-                }
-                if needs.affine {
-                    let affine = if plain {
-                        slope
-                    } else {
-                        axis.weight[i] * axis.arm[i] / (inertia * cell_size)
-                    };
-                    self.affine[a][i].set_of(q, affine);
-                }
-            }
-            self.inertia[a].set_of(q, inertia * cell_size * cell_size);
+/// The functions along an axis of points of which some lie near an end of the grid.
+struct NearEnd<'a, P, B, const D: usize, const N: usize> {
+    group: &'a mut Group<P, D, N>,
+    axis: (usize, &'a B, i32),
+    /// In cells from the end of the grid and in the cell, and the first node.
+    place: [P; 3],
+    sizes: (f64, f64),
+    needs: Needs,
+}
+
+impl<P: Points, B: Basis<N>, const D: usize, const N: usize> Task for NearEnd<'_, P, B, D, N> {
+    #[inline(always)]
+    fn run(self) {
+        let (a, basis, cells) = self.axis;
+        let [x, s, first] = self.place;
+        let (low, high) = basis.alike(cells);
+        let inside =
+            P::splat(f64::from(low)).at_most(first) & first.at_most(P::splat(f64::from(high)));
+        let mut functions = basis.at_end(x, first, cells);
+        let same = basis.functions(s);
+        for i in 0..N {
+            functions.weight[i] = P::select(inside, same.weight[i], functions.weight[i]);
+            functions.slope[i] = P::select(inside, same.slope[i], functions.slope[i]);
+            functions.arm[i] = P::select(inside, same.arm[i], functions.arm[i]);
         }
+        self.group
+            .set_axis::<B, false>(a, &functions, self.sizes, self.needs);
     }
 }

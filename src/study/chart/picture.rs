@@ -70,21 +70,20 @@ pub fn picture(chart: &Chart, cost: Cost) -> TradeOff {
         Some(dimension) if kind == "basis" => format!("{about} ({dimension}D)"),
         _ => about,
     };
-    let floor = match &chart.subject {
-        Subject::File(file) if file.doubt.is_finite() => Some((
-            file.doubt,
-            "the reference differs by this from a run of it with half as many cells".into(),
-        )),
-        Subject::Problem(problem) if problem.doubt > 0.0 => Some((
-            problem.doubt,
-            "the reference is not better than this".into(),
-        )),
-        _ => None,
+    let (floor, dashes) = match &chart.subject {
+        Subject::File(file) if file.doubt > 0.0 && file.doubt.is_finite() => (
+            Some(file.doubt),
+            " Grey dashes: reference against half its cells.",
+        ),
+        Subject::Problem(problem) if problem.doubt > 0.0 => {
+            (Some(problem.doubt), " Grey dashes: doubt of the reference.")
+        }
+        _ => (None, ""),
     };
     TradeOff {
         title: capitalised(&what),
         subtitle: format!(
-            "{} runs. Labels: method, cells × points a cell and axis, C = Courant number. Cells are {}.",
+            "{} runs. Labels: method, cells × points a cell and axis, C = Courant number. Cells are {}.{dashes}",
             chart.trials.len(),
             chart.subject.cells_are()
         ),

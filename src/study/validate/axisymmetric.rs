@@ -56,7 +56,7 @@ pub const PROBLEM: Problem = Problem {
 /// The stresses of the tube.
 pub const STRESS: Problem = Problem {
     name: "axisymmetric_stress",
-    about: "the stresses of that tube",
+    about: "stresses at rest in the wall of a long thick tube under pressure, in an axisymmetric scene",
     norm: "radial and hoop stress at rest, relative L2 norm over points",
     error: |run| {
         let frames = &run.memory.frames;

@@ -18,7 +18,7 @@ pub const CASE: Case = Case {
 /// The beam at a Poisson's ratio of 0.499.
 pub const PROBLEM: Problem = Problem {
     name: "cantilever_shear",
-    about: "a nearly incompressible beam (Poisson's ratio 0.499), clamped at one end, comes to rest under a small load on the other",
+    about: "a beam of Poisson's ratio 0.499, clamped at one end, settles under a small load on the other",
     norm: "deflection of the free end at rest, relative",
     reference: "finite elements of nine nodes with a linear pressure each, extrapolated from 64 x 16 and 128 x 32",
     cells_are: "over the height of the beam",
