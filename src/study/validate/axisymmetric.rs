@@ -7,6 +7,7 @@
 //!
 //! Ring, radius R, ν = 0: only the hoop carries stress, E u/R: u = v₀/ω sin ωt with ω = √(E/ρ)/R.
 
+use super::compare::root_mean;
 use super::history::{frequency_near, from_start, largest, points, scaled};
 use super::problem::displacement_error;
 use super::{Case, CaseError, Layout, Problem, Report, rms, set};
@@ -61,15 +62,12 @@ pub const STRESS: Problem = Problem {
     error: |run| {
         let frames = &run.memory.frames;
         let (start, end) = (&frames[0].points, &frames[frames.len() - 1].points);
-        let (mut error, mut size) = (0.0, 0.0);
-        for (start, point) in start.iter().zip(end) {
-            let exact = Layer::exact(start.position[0]);
-            for (axis, stress) in [(0, exact.radial), (2, exact.hoop)] {
-                error += start.initial_volume * (point.stress[axis][axis] - stress).powi(2);
-                size += start.initial_volume * stress.powi(2);
-            }
-        }
-        (error / size).sqrt()
+        let exact = |i: usize| Layer::exact(start[i].position[0]);
+        let error = root_mean(end, |i, point| {
+            let (exact, stress) = (exact(i), point.stress);
+            (stress[0][0] - exact.radial).powi(2) + (stress[2][2] - exact.hoop).powi(2)
+        });
+        error / root_mean(end, |i, _| exact(i).radial.powi(2) + exact(i).hoop.powi(2))
     },
     ..PROBLEM
 };

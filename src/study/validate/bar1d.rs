@@ -13,7 +13,7 @@
 //! change nothing at all.
 
 use super::compare::{chart, curve, largest, map, orders};
-use super::problem::{SECOND_ORDER, displacement_error};
+use super::problem::{SECOND_ORDER, cell_size, displacement_error};
 use super::swing::Swing;
 use super::{Case, CaseError, Layout, Problem, Recorded, Report, rms, set};
 use crate::report::Style;
@@ -62,7 +62,7 @@ fn layout(dimension: usize, cells: u32) -> Layout {
     Layout {
         text: along(dimension, 0),
         overrides: vec![
-            format!("grid.cell_size={size}"),
+            cell_size(LENGTH, cells),
             format!("grid.max={max}"),
             format!("body[0].shape.box.max={max}"),
             format!("constants.v0=\"{SMALL_V0} m/s\""),

@@ -9,7 +9,7 @@
 
 use super::compare::{chart, curve, orders, root_mean};
 use super::swing::Swing;
-use super::problem::{cell_size, displacement_error};
+use super::problem::{bar_grid, displacement_error};
 use super::{Case, CaseError, Layout, Problem, Recorded, Report, set};
 use crate::report::Style;
 use std::sync::OnceLock;
@@ -31,18 +31,10 @@ pub const PROBLEM: Problem = Problem {
     cells_are: "along the bar",
     dimensions: &[1],
     layout: |_, cells| {
-        let length = LENGTH / f64::from(cells);
         // a quarter more for the swing
-        let max = LENGTH + length * (f64::from(cells) / 4.0).ceil();
-        Layout {
-            text: SCENARIO.into(),
-            overrides: vec![
-                cell_size(LENGTH, cells),
-                format!("grid.max=[{max}]"),
-                "time.end=\"5 s\"".into(),
-                format!("output.every={RECORD}"),
-            ],
-        }
+        let mut overrides = bar_grid(LENGTH, cells, (f64::from(cells) / 4.0).ceil());
+        overrides.extend(["time.end=\"5 s\"".into(), format!("output.every={RECORD}")]);
+        Layout { text: SCENARIO.into(), overrides }
     },
     error: |run| {
         displacement_error(run, |x, time| {

@@ -125,3 +125,9 @@ pub(super) fn displacement_error(
 pub(super) fn cell_size(length: f64, cells: u32) -> String {
     format!("grid.cell_size={}", length / f64::from(cells))
 }
+
+/// Overrides that divide a bar of this length, m, into cells, and give it so many cells more to move in.
+pub(super) fn bar_grid(length: f64, cells: u32, spare: f64) -> Vec<String> {
+    let max = length + spare * (length / f64::from(cells));
+    vec![cell_size(length, cells), format!("grid.max=[{max}]")]
+}

@@ -8,7 +8,7 @@
 //! histories are what fronts of that width make: at d = 8L, 0.09 L, or 2 % of the period for each of two passages.
 
 use super::compare::{chart, curve, largest, map};
-use super::problem::displacement_error;
+use super::problem::{bar_grid, displacement_error};
 use super::{Case, CaseError, Expected, Layout, Problem, Recorded, Report, rms};
 use crate::report::Style;
 
@@ -31,18 +31,9 @@ pub const PROBLEM: Problem = Problem {
     cells_are: "along the bar",
     dimensions: &[1],
     layout: |_, cells| {
-        let size = LENGTH / f64::from(cells);
-        // the bar, and cells to move in
-        let max = LENGTH + 2.0 * size;
-        Layout {
-            text: SCENARIO.into(),
-            overrides: vec![
-                format!("grid.cell_size={size}"),
-                format!("grid.max=[{max}]"),
-                "time.end=0.4".into(),
-                "output.every=0.02".into(),
-            ],
-        }
+        let mut overrides = bar_grid(LENGTH, cells, 2.0);
+        overrides.extend(["time.end=0.4".into(), "output.every=0.02".into()]);
+        Layout { text: SCENARIO.into(), overrides }
     },
     error: |run| displacement_error(run, |x, time| [displacement(x[0], time), 0.0, 0.0]),
     cells: |_| &[16, 32, 64, 128],
